@@ -1,0 +1,14 @@
+//! Looks around once before gathering.
+//!
+//! [`Gatherer::irradiance`] estimates all light at a diffuse point: direct light by lamp sampling, caustic light straight
+//! from the caustic map, and the rest by a ray over the hemisphere that gathers where it lands. Without maps the
+//! same walk is a path tracer, the control that photon maps are held against.
+#![forbid(unsafe_code)]
+
+mod gatherer;
+mod light;
+mod segment;
+
+pub use gatherer::{GatherMaps, Gatherer, MapWithRadius, gather_point};
+pub use light::Light;
+pub use segment::{EyeLimits, Landing, Start, follow};

@@ -1,0 +1,42 @@
+//! What one look at a point found.
+
+use photonlab_photometry::Colour;
+
+/// One sample of the light at a point: irradiance in W/m^2 or lx, and what is known of its bias.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Light<const C: usize> {
+    /// Its mean over samples is the irradiance (up to `bias`).
+    pub irradiance: Colour<C>,
+    /// Its mean over samples estimates the kernel's bias in `irradiance`.
+    pub bias: Colour<C>,
+    /// The part of `irradiance` that was gathered with a ball reaching over an edge or onto another surface, where
+    /// `bias` says nothing.
+    pub unresolved: Colour<C>,
+    /// Photons gathered.
+    pub photons: f64,
+}
+
+impl<const C: usize> Light<C> {
+    /// Adds another contribution.
+    pub fn add(&mut self, other: &Self) {
+        self.irradiance += other.irradiance;
+        self.bias += other.bias;
+        self.unresolved += other.unresolved;
+        self.photons += other.photons;
+    }
+
+    /// Weights flux quantities; the photons that were looked at stay.
+    pub fn weighted(&self, weight: Colour<C>) -> Self {
+        Self {
+            irradiance: self.irradiance * weight,
+            bias: self.bias * weight,
+            unresolved: self.unresolved * weight,
+            photons: self.photons,
+        }
+    }
+
+    /// Divides everything by a number of samples.
+    pub fn over(&self, samples: f64) -> Self {
+        Self { photons: self.photons / samples, ..self.weighted(Colour::splat(1.0 / samples)) }
+    }
+}

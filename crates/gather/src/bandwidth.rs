@@ -1,0 +1,54 @@
+//! How far to gather, what to divide by, and which photons count.
+
+/// Which photons an estimate uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Bandwidth {
+    /// The `k` nearest that pass the tests; the k-th only sets the radius.
+    Nearest {
+        /// Photons, at least 2.
+        k: usize,
+        /// Never farther than this, metres; may be infinite.
+        max_radius: f64,
+    },
+    /// All in a closed ball.
+    Radius(f64),
+}
+
+/// The area that gathered flux is divided by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum AreaModel {
+    /// pi r^2, the part of a flat surface inside the ball.
+    #[default]
+    Disc,
+    /// 4 pi r^2, the paper's words taken literally; a quarter of the truth on any flat surface.
+    Sphere,
+}
+
+impl AreaModel {
+    /// The area in square metres for a squared radius.
+    pub fn area(self, radius_squared: f64) -> f64 {
+        let disc = std::f64::consts::PI * radius_squared;
+        match self {
+            AreaModel::Disc => disc,
+            AreaModel::Sphere => 4.0 * disc,
+        }
+    }
+}
+
+/// Which photons in the ball count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tests {
+    /// Only photons on surfaces whose normal (on the photon's side) is within 60 degrees of the point's. Wide enough
+    /// for curved surfaces of any radius above the gather radius, narrow enough to part the faces of a corner.
+    pub normal: bool,
+    /// Only photons that travelled towards the point's side of the surface.
+    pub side: bool,
+    /// Only photons whose path has at most this many segments.
+    pub max_segments: Option<u32>,
+}
+
+impl Default for Tests {
+    fn default() -> Self {
+        Self { normal: true, side: true, max_segments: None }
+    }
+}

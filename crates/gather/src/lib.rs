@@ -1,0 +1,13 @@
+//! Photons near a point in, illuminance with its error out.
+//!
+//! Stands on the tree and the photon record alone. What the estimate means near an edge or another surface is the
+//! caller's to judge: it knows the geometry.
+#![forbid(unsafe_code)]
+
+mod bandwidth;
+mod estimate;
+mod map;
+
+pub use bandwidth::{AreaModel, Bandwidth, Tests};
+pub use estimate::Estimate;
+pub use map::{CHECK, GatherPoint, PhotonMap, Scratch};

@@ -1,0 +1,146 @@
+//! The tree and what it holds.
+
+use rayon::prelude::*;
+
+use crate::error::BuildError;
+use crate::node::Node;
+use crate::rule::{DEFAULT_LEAF_LIMIT, SplitRule};
+use crate::{median, surface_area};
+
+/// So that indices of points and of nodes (fewer than two a point) fit 32 bits.
+pub(crate) const MAX_POINTS: usize = 1 << 31;
+
+/// Points with a payload each, arranged for queries; immutable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KdTree<P> {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) points: Vec<[f32; 3]>,
+    pub(crate) payload: Vec<P>,
+    pub(crate) original: Vec<u32>,
+}
+
+impl<P: Copy + Send + Sync> KdTree<P> {
+    /// Builds the tree of `points`, in any unit of length, `payload[i]` belonging to `points[i]`.
+    ///
+    /// Leaves hold up to [`DEFAULT_LEAF_LIMIT`] points, more where the rule says so. Runs on rayon's current
+    /// thread pool; the result does not depend on it.
+    pub fn build(
+        points: Vec<[f32; 3]>,
+        payload: Vec<P>,
+        rule: SplitRule,
+    ) -> Result<Self, BuildError> {
+        Self::build_with_leaf_limit(points, payload, rule, DEFAULT_LEAF_LIMIT)
+    }
+
+    /// [`build`](Self::build), but nodes are cut until they hold `leaf_limit` points or fewer (0 counts as 1).
+    ///
+    /// With a limit of 1, [`SplitRule::SurfaceArea`] stops by its cost alone.
+    pub fn build_with_leaf_limit(
+        points: Vec<[f32; 3]>,
+        payload: Vec<P>,
+        rule: SplitRule,
+        leaf_limit: usize,
+    ) -> Result<Self, BuildError> {
+        check_counts(points.len(), payload.len())?;
+        check_finite(&points)?;
+        rule.check()?;
+        if points.is_empty() {
+            return Ok(Self {
+                nodes: vec![],
+                points,
+                payload,
+                original: vec![],
+            });
+        }
+        let leaf_limit = leaf_limit.max(1);
+        let (root, original) = match rule {
+            SplitRule::Median => median::build(&points, leaf_limit),
+            SplitRule::SurfaceArea { empty_cost } => {
+                surface_area::build(&points, empty_cost, leaf_limit)
+            }
+        };
+        Ok(Self {
+            nodes: root.flatten(),
+            points: original.par_iter().map(|&i| points[i as usize]).collect(),
+            payload: original.par_iter().map(|&i| payload[i as usize]).collect(),
+            original,
+        })
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The points in tree order, leaf after leaf; within a leaf in the order given to `build`.
+    pub fn points(&self) -> &[[f32; 3]] {
+        &self.points
+    }
+
+    /// The payloads in tree order.
+    pub fn payloads(&self) -> &[P] {
+        &self.payload
+    }
+
+    /// Where the point at `i` in tree order stood in the order given to `build`.
+    ///
+    /// # Panics
+    ///
+    /// If `i` is not below [`len`](Self::len).
+    pub fn original_index(&self, i: usize) -> usize {
+        self.original[i] as usize
+    }
+}
+
+fn check_counts(points: usize, payload: usize) -> Result<(), BuildError> {
+    if points != payload {
+        return Err(BuildError::LengthMismatch { points, payload });
+    }
+    if points > MAX_POINTS {
+        return Err(BuildError::TooMany { points });
+    }
+    Ok(())
+}
+
+fn check_finite(points: &[[f32; 3]]) -> Result<(), BuildError> {
+    match points.iter().position(|p| !p.iter().all(|c| c.is_finite())) {
+        Some(index) => Err(BuildError::NonFinite { index }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_must_agree_and_fit() {
+        assert_eq!(
+            check_counts(3, 2),
+            Err(BuildError::LengthMismatch {
+                points: 3,
+                payload: 2
+            })
+        );
+        assert_eq!(check_counts(MAX_POINTS, MAX_POINTS), Ok(()));
+        let points = MAX_POINTS + 1;
+        assert_eq!(
+            check_counts(points, points),
+            Err(BuildError::TooMany { points })
+        );
+    }
+
+    #[test]
+    fn refuses_what_is_not_finite() {
+        for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            let points = vec![[0.0; 3], [0.0, 0.0, bad], [bad, 0.0, 0.0]];
+            let built = KdTree::build(points, vec![(); 3], SplitRule::Median);
+            assert_eq!(built, Err(BuildError::NonFinite { index: 1 }));
+        }
+    }
+}

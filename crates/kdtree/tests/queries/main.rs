@@ -1,0 +1,6 @@
+//! Trees against the obvious loop, and against themselves.
+
+mod adversarial;
+mod brute_force;
+mod obvious;
+mod threads;

@@ -1,0 +1,26 @@
+//! Rays from eyes and receivers, direct light, and the strategies put together.
+//!
+//! A [`Session`] reads the cells of a scene's sensors in passes. Every pass has photons, maps and rays of its own, so the
+//! spread of the passes' values is an honest standard error; the run ends when its error bars, the clock or the count
+//! says so.
+#![forbid(unsafe_code)]
+
+mod cells;
+mod identity;
+mod kronecker;
+mod look;
+mod map_file;
+mod maps;
+mod method;
+mod outcome;
+mod schedule;
+mod session;
+
+pub use cells::{Cell, Target};
+pub use identity::scene_identity;
+pub use map_file::{MapFile, MapFileError, MapHeader};
+pub use maps::{PassPhotons, trace_pass};
+pub use method::{Direct, Method, Settings};
+pub use outcome::{CellResult, Outcome};
+pub use schedule::{Ends, Schedule, Wanted};
+pub use session::{Observer, ReadError, Session, Source};

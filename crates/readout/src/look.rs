@@ -1,0 +1,168 @@
+//! One sample of one cell.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+use photonlab_final_gather::{EyeLimits, Gatherer, Light, Start, follow, gather_point};
+use photonlab_gather::{Bandwidth, CHECK, PhotonMap, Scratch, Tests};
+use photonlab_photometry::Colour;
+use photonlab_sampling::{Lamps, Purpose, Stream, sample_direct};
+use photonlab_scene::{SurfacePoint, World};
+
+use crate::{
+    Cell, Direct, Method, Settings, Target,
+    cells::pixel_ray,
+    kronecker,
+    maps::PassMaps,
+};
+
+/// Looks into one pass's light.
+pub(crate) struct Look<'p, const C: usize> {
+    pub(crate) world: &'p World,
+    pub(crate) lamps: &'p Lamps<C>,
+    pub(crate) settings: &'p Settings,
+    pub(crate) maps: &'p PassMaps<C>,
+    pub(crate) pass: u32,
+    /// Points per cell in this pass.
+    pub(crate) samples: u64,
+}
+
+/// What one sample of a cell found, in the cell's unit.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sample<const C: usize> {
+    pub(crate) light: Light<C>,
+    /// True if there can be no light: the ray left the scene or met something black.
+    pub(crate) dark: bool,
+}
+
+impl<const C: usize> Look<'_, C> {
+    /// The offsets of a cell's quasi-random points in this pass.
+    pub(crate) fn shift(&self, number: usize) -> [f64; kronecker::DIMENSIONS] {
+        let mut stream = Stream::new(self.settings.seed, Purpose::Offsets, self.pass, number as u64);
+        std::array::from_fn(|_| stream.next())
+    }
+
+    /// Sample `sample` of cell `number`.
+    pub(crate) fn sample(
+        &self,
+        cell: &Cell,
+        number: usize,
+        sample: u64,
+        shift: &[f64; kronecker::DIMENSIONS],
+        scratch: &mut Scratch,
+    ) -> Sample<C> {
+        let rays = u64::from(self.settings.gather_rays);
+        let first = (number as u64 * self.samples + sample) * (rays + 1);
+        let mut eye = self.stream(first);
+        let [x, y, z, ..] = kronecker::point(sample * rays, shift);
+        let (start, reach) = match &cell.target {
+            Target::Patch { shape, film } => {
+                let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
+                let seed = Seed { first, sample, shift };
+                return Sample { light: self.irradiance(&point, point.normal, 0, seed, scratch), dark: false };
+            }
+            Target::Along(ray) => (*ray, f64::INFINITY),
+            Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y]),
+        };
+        let start = Start { ray: start, from: None, reach, used: 0 };
+        let landing = follow(self.world, self.lamps, &self.limits(), start, &mut eye);
+        let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |(_, radiance)| radiance);
+        let mut light = Light { irradiance: emitted, ..Light::default() };
+        let diffuse = landing.diffuse.filter(|(_, reflectance, weight)| !(*reflectance * *weight).is_zero());
+        if let Some((hit, reflectance, weight)) = diffuse {
+            let seed = Seed { first, sample, shift };
+            let found = self.irradiance(&hit.point, hit.facing_normal(), landing.segments, seed, scratch);
+            light.add(&found.weighted(reflectance * weight * (1.0 / PI)));
+        }
+        Sample { light, dark: diffuse.is_none() && emitted.is_zero() }
+    }
+
+    fn stream(&self, index: u64) -> Stream {
+        Stream::new(self.settings.seed, Purpose::Readout, self.pass, index)
+    }
+
+    fn limits(&self) -> EyeLimits {
+        EyeLimits {
+            max_segments: self.settings.limits.max_segments,
+            max_specular: self.settings.limits.max_specular,
+        }
+    }
+
+    /// The mean over the gather rays of one point.
+    fn irradiance(
+        &self,
+        at: &SurfacePoint,
+        normal: DVec3,
+        used: u32,
+        seed: Seed<'_>,
+        scratch: &mut Scratch,
+    ) -> Light<C> {
+        let rays = self.settings.gather_rays;
+        let mut light = Light::default();
+        for ray in 0..rays {
+            let [_, _, _, rest @ ..] = kronecker::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
+            let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix(rest);
+            light.add(&match self.settings.method {
+                Method::FinalGather { .. } | Method::Path => {
+                    let maps = matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps());
+                    let gatherer = Gatherer { world: self.world, lamps: self.lamps, maps, limits: self.limits() };
+                    gatherer.irradiance(at, normal, used, &mut stream, scratch)
+                }
+                Method::Nearest { .. } | Method::Radius { .. } => {
+                    let mut one = self.from_map(at, normal, used, scratch);
+                    if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
+                        let xi = [stream.next(), stream.next(), stream.next()];
+                        let direct = sample_direct(self.world, self.lamps, at, normal, xi);
+                        one.irradiance += direct.map_or(Colour::ZERO, |d| d.irradiance);
+                    }
+                    one
+                }
+            });
+        }
+        light.over(f64::from(rays))
+    }
+
+    /// The density estimate at the point itself.
+    fn from_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
+        let Some(map) = &self.maps.surface else { return Light::default() };
+        let bandwidth = match self.settings.method {
+            Method::Nearest { k } => Bandwidth::Nearest { k, max_radius: f64::INFINITY },
+            _ => Bandwidth::Radius(self.maps.surface_radius),
+        };
+        let tests = Tests {
+            max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
+            ..Tests::default()
+        };
+        self.estimate(map, bandwidth, &tests, at, normal, scratch)
+    }
+
+    fn estimate(
+        &self,
+        map: &PhotonMap<C>,
+        bandwidth: Bandwidth,
+        tests: &Tests,
+        at: &SurfacePoint,
+        normal: DVec3,
+        scratch: &mut Scratch,
+    ) -> Light<C> {
+        let found = map.gather(&gather_point(at, normal), bandwidth, self.settings.area, tests, scratch);
+        let reach = match bandwidth {
+            Bandwidth::Nearest { .. } => found.radius,
+            Bandwidth::Radius(radius) => CHECK * radius,
+        };
+        let unresolved = found.photons > 0 && self.world.ball_leaves_surface(at, reach);
+        Light {
+            irradiance: found.irradiance,
+            bias: found.bias,
+            unresolved: if unresolved { found.irradiance } else { Colour::ZERO },
+            photons: found.photons as f64,
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Seed<'s> {
+    first: u64,
+    sample: u64,
+    shift: &'s [f64; kronecker::DIMENSIONS],
+}

@@ -1,0 +1,137 @@
+//! The photons of one pass and the maps made of them.
+
+use photonlab_final_gather::{GatherMaps, MapWithRadius};
+use photonlab_gather::{PhotonMap, Scratch};
+use photonlab_kdtree::SplitRule;
+use photonlab_photometry::{PathClass, Photon};
+use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_scene::{Needs, World};
+use photonlab_trace::{Classes, Job, Ledger, trace};
+
+use crate::{Method, ReadError, Settings};
+
+/// Photons that a surface map's disc holds on average where photons are: few, because many rays average them, so that
+/// the disc and its bias stay small.
+const FINAL_GATHER_COUNT: usize = 16;
+/// The same where the map is read at the point itself.
+const DIRECT_VIEW_COUNT: usize = 50;
+/// The same in the caustic map.
+const CAUSTIC_COUNT: usize = 32;
+/// Photons asked for their neighbours to find a radius.
+const PROBES: usize = 255;
+/// An automatic radius shrinks as pass^-SHRINK, so r^2 falls as pass^(-1/3) (Knaus and Zwicker 2011, alpha = 2/3):
+/// both the bias and the noise of the mean go to zero.
+const SHRINK: f64 = 1.0 / 6.0;
+
+/// What one pass's photons left, before any map is built.
+#[derive(Clone, Debug)]
+pub struct PassPhotons<const C: usize> {
+    /// Metres.
+    pub positions: Vec<[f32; 3]>,
+    /// The records.
+    pub photons: Vec<Photon<C>>,
+    /// Where the flux went.
+    pub ledger: Ledger<C>,
+    /// Emitted paths.
+    pub emitted: u64,
+}
+
+/// Traces one pass.
+pub fn trace_pass<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    settings: &Settings,
+    keep: Classes,
+    pass: u32,
+    photons: u64,
+) -> Result<PassPhotons<C>, ReadError> {
+    let plan = EmissionPlan::new(lamps, photons)?;
+    let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
+    let traced = trace(world, lamps, &plan, &job)?;
+    Ok(PassPhotons {
+        positions: traced.positions,
+        photons: traced.photons,
+        ledger: traced.ledger,
+        emitted: plan.photons(),
+    })
+}
+
+/// The maps of one pass.
+pub(crate) struct PassMaps<const C: usize> {
+    pub(crate) surface: Option<PhotonMap<C>>,
+    pub(crate) surface_radius: f64,
+    pub(crate) caustic: Option<PhotonMap<C>>,
+    pub(crate) caustic_radius: f64,
+}
+
+/// Radii of the first pass, from which those of all others follow.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Radii {
+    surface: Option<f64>,
+    caustic: Option<f64>,
+}
+
+impl<const C: usize> PassMaps<C> {
+    pub(crate) fn none() -> Self {
+        Self { surface: None, surface_radius: 0.0, caustic: None, caustic_radius: 0.0 }
+    }
+
+    /// Builds what the method reads; chooses radii in the first pass and shrinks them in later ones.
+    pub(crate) fn build(
+        photons: PassPhotons<C>,
+        world: &World,
+        needs: &Needs,
+        settings: &Settings,
+        pass: u32,
+        radii: &mut Radii,
+    ) -> Result<Self, ReadError> {
+        let classes = settings.classes();
+        let final_gather = matches!(settings.method, Method::FinalGather { .. });
+        let caustic = (final_gather && needs.caustic)
+            .then(|| select(&photons, |class| class == PathClass::Caustic))
+            .map(|(positions, photons)| PhotonMap::build(positions, photons, SplitRule::Median))
+            .transpose()?;
+        let wants_surface = !final_gather || needs.indirect;
+        let surface = wants_surface
+            .then(|| select(&photons, |class| classes.has(class)))
+            .map(|(positions, photons)| PhotonMap::build(positions, photons, SplitRule::Median))
+            .transpose()?;
+        let fixed = match settings.method {
+            Method::Radius { radius } | Method::FinalGather { radius } => radius,
+            Method::Nearest { .. } | Method::Path => None,
+        };
+        let count = if final_gather { FINAL_GATHER_COUNT } else { DIRECT_VIEW_COUNT };
+        let shrink = f64::from(pass + 1).powf(-SHRINK);
+        let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {
+            (Some(radius), _) => radius,
+            (None, None) => 0.0,
+            (None, Some(map)) => *first.get_or_insert_with(|| first_radius(map, count, world)) * shrink,
+        };
+        let surface_radius = radius(&surface, &mut radii.surface, count);
+        let caustic_radius = radius(&caustic, &mut radii.caustic, CAUSTIC_COUNT);
+        Ok(Self { surface, surface_radius, caustic, caustic_radius })
+    }
+
+    pub(crate) fn gather_maps(&self) -> GatherMaps<'_, C> {
+        GatherMaps {
+            surface: self.surface.as_ref().map(|map| MapWithRadius { map, radius: self.surface_radius }),
+            caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius }),
+        }
+    }
+}
+
+fn select<const C: usize>(
+    pass: &PassPhotons<C>,
+    wanted: impl Fn(PathClass) -> bool,
+) -> (Vec<[f32; 3]>, Vec<Photon<C>>) {
+    let chosen = pass.positions.iter().zip(&pass.photons).filter(|(_, photon)| wanted(photon.class));
+    chosen.map(|(position, photon)| (*position, *photon)).unzip()
+}
+
+/// The radius that holds about `count` photons, fewer where the map is small; a hundredth of the scene for a map with
+/// next to nothing in it.
+fn first_radius<const C: usize>(map: &PhotonMap<C>, count: usize, world: &World) -> f64 {
+    let (low, high) = world.bounds();
+    let count = count.min(map.len() / 4).max(2);
+    map.typical_radius(count, PROBES, &mut Scratch::default()).unwrap_or(0.01 * (high - low).max_element())
+}

@@ -1,0 +1,76 @@
+//! What to do: the method and its settings.
+
+use photonlab_gather::AreaModel;
+use photonlab_trace::{Classes, Limits};
+
+/// How light at a diffuse point is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// From the map at the point: the k nearest photons.
+    Nearest {
+        /// Photons, at least 2.
+        k: usize,
+    },
+    /// From the map at the point: all photons in a ball.
+    Radius {
+        /// Metres; `None` takes it from the photons of the first pass and lets it shrink from pass to pass.
+        radius: Option<f64>,
+    },
+    /// By looking around once and gathering where the rays land.
+    FinalGather {
+        /// Metres; `None` as for [`Method::Radius`].
+        radius: Option<f64>,
+    },
+    /// Path tracing without a map: the control.
+    Path,
+}
+
+impl Method {
+    /// The method's name on the command line and in results.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Method::Nearest { .. } => "nearest",
+            Method::Radius { .. } => "radius",
+            Method::FinalGather { .. } => "final-gather",
+            Method::Path => "path",
+        }
+    }
+}
+
+/// Where direct light comes from when the map is read at the point itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Direct {
+    /// From the lamps, by sampling.
+    #[default]
+    Sampled,
+    /// From the map, with all other light: the paper's direct view.
+    Photons,
+}
+
+/// Everything that decides the bits of a reading besides the scene and the counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How light is found.
+    pub method: Method,
+    /// Where direct light comes from (map methods alone).
+    pub direct: Direct,
+    /// What gathered flux is divided by (map methods alone).
+    pub area: AreaModel,
+    /// Rays per gather point.
+    pub gather_rays: u32,
+    /// The run's seed.
+    pub seed: u64,
+    /// Longest path in segments (as Mitsuba's `max_depth`) and longest specular run.
+    pub limits: Limits,
+}
+
+impl Settings {
+    /// Classes of photon that the method reads.
+    pub fn classes(&self) -> Classes {
+        match (self.method, self.direct) {
+            (Method::Path, _) => Classes::NONE,
+            (Method::FinalGather { .. }, _) | (_, Direct::Photons) => Classes::ALL,
+            (_, Direct::Sampled) => Classes { direct: false, ..Classes::ALL },
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! What a run found.
+
+use photonlab_final_gather::Light;
+use photonlab_measure::{Replicates, Stopped, student_t_quantile};
+use photonlab_photometry::Channels;
+use photonlab_trace::Ledger;
+
+/// One cell's values over the passes.
+#[derive(Clone, Debug)]
+pub struct CellResult<const C: usize> {
+    /// The cell's value in each pass, per channel.
+    pub value: [Replicates; C],
+    /// The estimated kernel bias in each pass, per channel.
+    pub bias: [Replicates; C],
+    /// Mean of the part gathered across an edge or onto another surface.
+    pub unresolved: [Replicates; C],
+    /// Photons behind the value, over all passes.
+    pub photons: f64,
+    /// True if every sample proved that there can be no light.
+    pub dark: bool,
+}
+
+impl<const C: usize> Default for CellResult<C> {
+    fn default() -> Self {
+        let none = [Replicates::new(); C];
+        Self { value: none, bias: none, unresolved: none, photons: 0.0, dark: true }
+    }
+}
+
+impl<const C: usize> CellResult<C> {
+    /// Adds one pass: the mean over its samples and whether all were proved dark. `photons` is the number gathered.
+    pub(crate) fn push(&mut self, mean: &Light<C>, photons: f64, dark: bool) {
+        for channel in 0..C {
+            self.value[channel].push(mean.irradiance[channel]);
+            self.bias[channel].push(mean.bias[channel]);
+            self.unresolved[channel].push(mean.unresolved[channel]);
+        }
+        self.photons += photons;
+        self.dark &= dark;
+    }
+
+    /// True if no light was found and darkness was not proved.
+    pub fn found_nothing(&self) -> bool {
+        !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
+    }
+
+    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and all that was
+    /// gathered across edges.
+    pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
+        let bias = &self.bias[channel];
+        bias.mean().unwrap_or(0.0).abs()
+            + bias.half_width(confidence).unwrap_or(0.0)
+            + self.unresolved[channel].mean().unwrap_or(0.0).abs()
+    }
+
+    /// Half the interval's length of a channel; `None` below two passes.
+    pub fn half_width(&self, channel: usize, confidence: f64) -> Option<f64> {
+        Some(self.value[channel].half_width(confidence)? + self.bias_bound(channel, confidence))
+    }
+
+    /// Share of the value that was gathered across an edge or onto another surface.
+    pub fn unresolved_share(&self, channel: usize) -> f64 {
+        let value = self.value[channel].mean().unwrap_or(0.0);
+        if value == 0.0 { 0.0 } else { self.unresolved[channel].mean().unwrap_or(0.0) / value }
+    }
+}
+
+/// What a run found.
+#[derive(Clone, Debug)]
+pub struct Outcome<const C: usize> {
+    /// One per cell, in the order given.
+    pub cells: Vec<CellResult<C>>,
+    /// Mean over the passes; `None` if no photon was traced.
+    pub ledger: Option<Ledger<C>>,
+    /// Emitted paths in all.
+    pub photons: u64,
+    /// Passes done.
+    pub passes: u64,
+    /// Samples per cell in all.
+    pub samples: u64,
+    /// What ended the run.
+    pub stopped: Stopped,
+    /// Mean radius averaged over, metres; `None` without a fixed-radius gather.
+    pub radius: Option<f64>,
+    /// The channels' meaning.
+    pub channels: Channels,
+}
+
+/// The worst relative half-width over cells and channels (`measure`), or the RMS half-width over the mean (`render`).
+pub(crate) fn relative_error<const C: usize>(cells: &[CellResult<C>], confidence: f64, rms: bool) -> Option<f64> {
+    let passes = cells.first()?.value[0].len();
+    if passes < 2 {
+        return None;
+    }
+    // One quantile serves all cells.
+    let t = student_t_quantile(confidence, (passes - 1) as f64);
+    let half = |cell: &CellResult<C>, c: usize| {
+        let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
+        let known = cell.bias[c].mean().unwrap_or(0.0).abs() + cell.unresolved[c].mean().unwrap_or(0.0).abs();
+        t * noise + known
+    };
+    let each = cells.iter().flat_map(|cell| (0..C).map(move |c| (cell, c)));
+    if rms {
+        let squares: f64 = each.clone().map(|(cell, c)| half(cell, c).powi(2)).sum();
+        let count = (cells.len() * C) as f64;
+        let mean: f64 = each.map(|(cell, c)| cell.value[c].mean().unwrap_or(0.0).abs()).sum::<f64>() / count;
+        return (mean > 0.0).then(|| (squares / count).sqrt() / mean);
+    }
+    each.filter(|(cell, _)| !cell.dark)
+        .map(|(cell, c)| half(cell, c) / cell.value[c].mean().unwrap_or(0.0).abs())
+        .map(|error| if error.is_nan() { f64::INFINITY } else { error })
+        .reduce(f64::max)
+        .or(Some(0.0))
+}

@@ -1,0 +1,267 @@
+//! Passes until the error, the clock or the count ends them.
+
+use std::time::{Duration, Instant};
+
+use photonlab_final_gather::Light;
+use photonlab_gather::Scratch;
+use photonlab_measure::Stopped;
+use photonlab_sampling::{Lamps, PlanError};
+use photonlab_scene::{Needs, World};
+use photonlab_trace::{Ledger, TraceError};
+use rayon::prelude::*;
+
+use crate::{
+    Cell, CellResult, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
+    look::{Look, Sample},
+    maps::{PassMaps, Radii},
+    outcome::relative_error,
+    trace_pass,
+};
+
+/// Samples that one task takes of one cell.
+const BLOCK: u64 = 256;
+/// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
+const PASSES_BEFORE_STOPPING: u64 = 16;
+/// Growth of the number of passes between two looks at the error. Every look is a chance to stop on a lucky error bar.
+const LOOK_GROWTH: f64 = 1.1;
+/// A run that only its error could end stops here and says so.
+const MOST_PASSES: u64 = 100_000;
+/// Passes that a time limit should hold at least, and by how much the pilot that plans them is smaller than a pass.
+const PASSES_IN_TIME: f64 = 20.0;
+const PILOT: u64 = 64;
+
+/// Where a session's photons come from.
+pub enum Source<'f, const C: usize> {
+    /// Traced as the passes need them.
+    Trace,
+    /// A saved map, one pass for each of its replicates.
+    Map(&'f MapFile<C>),
+}
+
+/// Watches a run.
+pub trait Observer: Sync {
+    /// Called after each pass with the passes done, the time since the start and the error so far.
+    fn pass_done(&self, passes: u64, elapsed: Duration, error: Option<f64>);
+}
+
+/// Why a run has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// Photons could not be shared among lamps.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// Photons could not be followed to an end.
+    #[error(transparent)]
+    Trace(#[from] TraceError),
+    /// Photons could not be ordered.
+    #[error("the photon map cannot be built: {0}")]
+    Map(#[from] photonlab_kdtree::BuildError),
+}
+
+/// A scene being read.
+pub struct Session<'w, const C: usize> {
+    /// The scene.
+    pub world: &'w World,
+    /// Its lamps.
+    pub lamps: &'w Lamps<C>,
+    /// What it needs.
+    pub needs: &'w Needs,
+    /// How it is read.
+    pub settings: Settings,
+    /// Two-sided confidence of the intervals that may end the run.
+    pub confidence: f64,
+    /// True if the error is the RMS over all cells over their mean (an image), else the worst cell's.
+    pub rms: bool,
+}
+
+impl<const C: usize> Session<'_, C> {
+    /// The fewest photons that a pass of this session can have; zero if it needs none.
+    pub fn fewest_photons(&self) -> usize {
+        if self.uses_maps() { self.lamps.lamps.len().max(1) } else { 0 }
+    }
+
+    /// True if the method reads any map in this scene.
+    fn uses_maps(&self) -> bool {
+        match self.settings.method {
+            Method::Path => false,
+            Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic,
+            Method::Nearest { .. } | Method::Radius { .. } => {
+                self.settings.classes().direct || self.needs.indirect || self.needs.caustic
+            }
+        }
+    }
+
+    /// Reads all cells.
+    pub fn run(
+        &self,
+        cells: &[Cell],
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+        observer: &dyn Observer,
+    ) -> Result<Outcome<C>, ReadError> {
+        let start = Instant::now();
+        let schedule = &self.fit_into_time(cells, schedule, source, start)?;
+        let mut run = Run::new(cells.len());
+        let passes = match source {
+            Source::Trace => schedule.ends.passes,
+            Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),
+        };
+        let mut next_look = PASSES_BEFORE_STOPPING;
+        let mut longest = Duration::ZERO;
+        loop {
+            let begun = Instant::now();
+            self.pass(&mut run, cells, schedule, source)?;
+            longest = longest.max(begun.elapsed());
+            let done = run.passes;
+            let looks = done >= next_look;
+            let error = looks.then(|| relative_error(&run.cells, self.confidence, self.rms)).flatten();
+            observer.pass_done(done, start.elapsed(), error);
+            if looks {
+                next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
+            }
+            let reached = schedule.ends.target_error.zip(error).is_some_and(|(target, error)| error <= target);
+            let stopped = if reached {
+                Some(Stopped::Target)
+            } else if passes.unwrap_or(MOST_PASSES) <= done {
+                Some(Stopped::Count)
+            } else if schedule.ends.time_limit.is_some_and(|limit| start.elapsed() + longest > limit) {
+                Some(Stopped::Time)
+            } else {
+                None
+            };
+            if let Some(stopped) = stopped {
+                return Ok(run.finish(self, stopped));
+            }
+        }
+    }
+
+    /// Divides the passes, after a pilot whose work is not used, so that enough of them end within the time limit.
+    fn fit_into_time(
+        &self,
+        cells: &[Cell],
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+        start: Instant,
+    ) -> Result<Schedule, ReadError> {
+        let Some(limit) = schedule.ends.time_limit else { return Ok(*schedule) };
+        self.pass(&mut Run::new(cells.len()), cells, &schedule.divided(PILOT), source)?;
+        let pass = start.elapsed().as_secs_f64() * PILOT as f64;
+        let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64()).max(1e-3);
+        let by = (pass * PASSES_IN_TIME / left).ceil().clamp(1.0, 1e6);
+        Ok(schedule.divided(by as u64))
+    }
+
+    /// One pass: photons, maps, every cell.
+    fn pass(
+        &self,
+        run: &mut Run<C>,
+        cells: &[Cell],
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+    ) -> Result<(), ReadError> {
+        let number = run.passes;
+        let maps = self.maps(run, number, schedule, source)?;
+        let samples = schedule.samples(number);
+        let look = Look {
+            world: self.world,
+            lamps: self.lamps,
+            settings: &self.settings,
+            maps: &maps,
+            pass: number as u32,
+            samples,
+        };
+        let blocks = samples.div_ceil(BLOCK);
+        let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, task| {
+                let (number, block) = ((task / blocks) as usize, task % blocks);
+                let shift = look.shift(number);
+                let mut sum = Sample { light: Light::default(), dark: true };
+                for sample in block * BLOCK..((block + 1) * BLOCK).min(samples) {
+                    let one = look.sample(&cells[number], number, sample, &shift, scratch);
+                    sum.light.add(&one.light);
+                    sum.dark &= one.dark;
+                }
+                sum
+            })
+            .collect();
+        for (cell, parts) in run.cells.iter_mut().zip(found.chunks(blocks as usize)) {
+            let mut light = Light::default();
+            parts.iter().for_each(|part| light.add(&part.light));
+            cell.push(&light.over(samples as f64), light.photons, parts.iter().all(|part| part.dark));
+        }
+        run.passes += 1;
+        run.samples += samples;
+        Ok(())
+    }
+
+    fn maps(
+        &self,
+        run: &mut Run<C>,
+        number: u64,
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+    ) -> Result<PassMaps<C>, ReadError> {
+        if !self.uses_maps() {
+            return Ok(PassMaps::none());
+        }
+        let photons = match source {
+            Source::Map(file) => file.passes[number as usize].clone(),
+            Source::Trace => {
+                let count = schedule.photons(number);
+                trace_pass(self.world, self.lamps, &self.settings, self.settings.classes(), number as u32, count)?
+            }
+        };
+        run.book(&photons);
+        let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
+        run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
+        Ok(maps)
+    }
+}
+
+struct Run<const C: usize> {
+    cells: Vec<CellResult<C>>,
+    ledger: Option<Ledger<C>>,
+    radii: Radii,
+    radius: f64,
+    photons: u64,
+    passes: u64,
+    samples: u64,
+}
+
+impl<const C: usize> Run<C> {
+    fn new(cells: usize) -> Self {
+        Self {
+            cells: vec![CellResult::default(); cells],
+            ledger: None,
+            radii: Radii::default(),
+            radius: 0.0,
+            photons: 0,
+            passes: 0,
+            samples: 0,
+        }
+    }
+
+    fn book(&mut self, pass: &PassPhotons<C>) {
+        self.photons += pass.emitted;
+        match &mut self.ledger {
+            Some(ledger) => ledger.add(&pass.ledger),
+            None => self.ledger = Some(pass.ledger.clone()),
+        }
+    }
+
+    fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
+        let per_pass = 1.0 / self.passes as f64;
+        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
+        Outcome {
+            ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
+            radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
+            cells: self.cells,
+            photons: self.photons,
+            passes: self.passes,
+            samples: self.samples,
+            stopped,
+            channels: session.needs.channels,
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! What a scene file says, in world units, checked but not yet prepared for ray casting.
+
+use glam::{DAffine3, DVec3};
+use photonlab_photometry::{Channels, UnitSystem};
+
+/// A colour as the file gives it; grey if its three numbers are equal. Unit: that of the parameter.
+pub type Rgb = [f64; 3];
+
+/// A whole scene: the promise of the door "file -> scene" is that nothing of the file was ignored in silence.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Shapes in the order of the file.
+    pub shapes: Vec<Shape>,
+    /// Lamps that are not shapes: point and directional. Area lamps are in [`Shape::radiance`].
+    pub emitters: Vec<Emitter>,
+    /// Sensors in the order of the file.
+    pub sensors: Vec<Sensor>,
+    /// Longest light path in segments, from the file's integrator (Mitsuba's `max_depth`); `None` is unlimited.
+    pub max_depth: Option<u32>,
+    /// Things the reader superseded, to be said once on standard error.
+    pub notes: Vec<String>,
+}
+
+/// One surface with its coating.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The `id` of the file, or `shape-N` (N counted from 0 in the file's order).
+    pub id: String,
+    /// Where it is.
+    pub geometry: Geometry,
+    /// True if the file turned its normals around (`flip_normals`).
+    pub flip_normals: bool,
+    /// What happens to light there.
+    pub bsdf: Bsdf,
+    /// Emitted radiance of the front side, W/(m^2 sr) or cd/m^2, if it is an area lamp.
+    pub radiance: Option<Rgb>,
+}
+
+/// The kinds of surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Geometry {
+    /// The image of the square [-1, 1]^2 in the plane z = 0, normal +z (Mitsuba `rectangle`).
+    Rectangle {
+        /// From the unit square to the world, in metres; never singular.
+        to_world: DAffine3,
+    },
+    /// The image of the cube [-1, 1]^3, normals outwards (Mitsuba `cube`).
+    Cube {
+        /// From the unit cube to the world, in metres; never singular.
+        to_world: DAffine3,
+    },
+    /// A sphere, normals outwards.
+    Sphere {
+        /// Centre in metres.
+        centre: DVec3,
+        /// Radius in metres, positive.
+        radius: f64,
+        /// From the sphere's own axes, in which u is the azimuth from +x over 2 pi and v the angle from +z over pi.
+        /// Orthonormal: a rotation, or a rotation and a mirror (determinant -1) where the file mirrors the sphere.
+        to_world: glam::DMat3,
+    },
+}
+
+/// What a surface does to light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Bsdf {
+    /// Lambertian on the front side; the back absorbs.
+    Diffuse {
+        /// Reflected share, each channel in [0, 1].
+        reflectance: Rgb,
+    },
+    /// Smooth interface between two lossless media (Fresnel, unpolarised).
+    Dielectric {
+        /// Index on the side opposite to the normal.
+        interior_index: f64,
+        /// Index on the side of the normal.
+        exterior_index: f64,
+    },
+    /// Mirror on the front side; the back absorbs.
+    Mirror {
+        /// Reflected share, each channel in [0, 1].
+        reflectance: SpecularReflectance,
+    },
+    /// A different surface on each side (Mitsuba `twosided`).
+    TwoSided {
+        /// The side of the normal; never itself two-sided.
+        front: Box<Bsdf>,
+        /// The other side, seen from there; never itself two-sided.
+        back: Box<Bsdf>,
+    },
+}
+
+/// Reflected share of a mirror.
+pub type SpecularReflectance = Rgb;
+
+/// Lamps without a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Emitter {
+    /// Isotropic point source.
+    Point {
+        /// The `id` of the file, or `emitter-N`.
+        id: String,
+        /// Position in metres.
+        position: DVec3,
+        /// Radiant or luminous intensity, W/sr or cd.
+        intensity: Rgb,
+    },
+    /// Parallel light from infinity.
+    Directional {
+        /// The `id` of the file, or `emitter-N`.
+        id: String,
+        /// Unit vector along which the light travels.
+        direction: DVec3,
+        /// Irradiance on a plane across the direction, W/m^2 or lx.
+        irradiance: Rgb,
+    },
+}
+
+/// A receiver and where it is.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    /// The `id` of the file, or `sensor-N` (N counted from 0 in the file's order).
+    pub id: String,
+    /// What it is.
+    pub receiver: Receiver,
+    /// Its cells.
+    pub film: Film,
+}
+
+/// The kinds of receiver.
+#[derive(Clone, Debug)]
+pub enum Receiver {
+    /// An image; for `render`.
+    Camera(Camera),
+    /// A number; for `measure`.
+    Meter(Meter),
+}
+
+/// A pinhole camera with Mitsuba's conventions: it looks along +z, +x is to the left of the image, +y is up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// From camera space to the world (rotation and translation, possibly with scale; directions are normalised).
+    pub to_world: DAffine3,
+    /// Half the field of view along the image's width, as a tangent, for the film's own aspect ratio.
+    pub tan_half_width: f64,
+    /// Half the field of view along the image's height, as a tangent.
+    pub tan_half_height: f64,
+    /// Shift of the image's centre in parts of the film's width and height (Mitsuba `principal_point_offset_x|y`).
+    pub principal_point_offset: [f64; 2],
+    /// Nothing nearer than this along the optical axis is seen, in metres.
+    pub near_clip: f64,
+    /// Nothing farther than this along the optical axis is seen, in metres.
+    pub far_clip: f64,
+}
+
+/// A meter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meter {
+    /// Radiance along one ray.
+    Radiancemeter {
+        /// Where the ray starts, metres.
+        origin: DVec3,
+        /// Unit vector in which it looks.
+        direction: DVec3,
+    },
+    /// Irradiance on the front side of a shape, one reading per cell of (u, v).
+    Irradiancemeter {
+        /// Index into [`Scene::shapes`].
+        shape: usize,
+    },
+}
+
+/// The cells of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Film {
+    /// Columns.
+    pub width: u32,
+    /// Rows; row 0 is the top of an image, and v = 0 of a meter.
+    pub height: u32,
+}
+
+impl Scene {
+    /// One channel if every colour in the scene is grey, else three.
+    pub fn channels(&self) -> Channels {
+        let grey = |rgb: &Rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2];
+        let emitters_grey = self.emitters.iter().all(|emitter| match emitter {
+            Emitter::Point { intensity, .. } => grey(intensity),
+            Emitter::Directional { irradiance, .. } => grey(irradiance),
+        });
+        let shapes_grey = self.shapes.iter().all(|shape| shape.bsdf.is_grey() && shape.radiance.as_ref().is_none_or(grey));
+        if emitters_grey && shapes_grey { Channels::Grey } else { Channels::Rgb }
+    }
+
+    /// True if the scene holds anything that emits.
+    pub fn has_light(&self) -> bool {
+        !self.emitters.is_empty() || self.shapes.iter().any(|shape| shape.radiance.is_some())
+    }
+
+    /// The unit system that the scene's numbers are read in unless the caller says otherwise.
+    pub fn default_units(&self) -> UnitSystem {
+        UnitSystem::Radiometric
+    }
+}
+
+impl Bsdf {
+    fn is_grey(&self) -> bool {
+        match self {
+            Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance } => {
+                reflectance[0] == reflectance[1] && reflectance[1] == reflectance[2]
+            }
+            Bsdf::Dielectric { .. } => true,
+            Bsdf::TwoSided { front, back } => front.is_grey() && back.is_grey(),
+        }
+    }
+}

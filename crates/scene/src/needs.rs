@@ -1,0 +1,104 @@
+//! What a scene needs to be read, each with its reason, and what it does not need.
+
+use photonlab_photometry::Channels;
+
+use crate::description::{Bsdf, Geometry, Scene};
+
+/// One thing that is modelled, or left out, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Need {
+    /// What.
+    pub need: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// What can change a reading of this scene. Whatever is false here is provably without effect.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// Channels that every photon and reading carries.
+    pub channels: Channels,
+    /// Light can reach a surface straight from a lamp.
+    pub direct: bool,
+    /// Light can reach a diffuse surface through specular ones alone, so a caustic map is kept.
+    pub caustic: bool,
+    /// Light can reach a surface after a diffuse interaction, so a surface map is kept.
+    pub indirect: bool,
+    /// What is modelled, with reasons.
+    pub list: Vec<Need>,
+    /// What is left out, with reasons.
+    pub left_out: Vec<Need>,
+}
+
+impl Needs {
+    /// Derives the needs from the scene's lamps and coatings alone; sensors do not matter.
+    pub fn of(scene: &Scene) -> Self {
+        let channels = scene.channels();
+        let specular = first_specular(scene);
+        let indirect = indirect_reason(scene);
+        let mut needs = Self {
+            channels,
+            direct: scene.has_light(),
+            caustic: scene.has_light() && specular.is_some(),
+            indirect: scene.has_light() && indirect.is_some(),
+            list: Vec::new(),
+            left_out: Vec::new(),
+        };
+        match channels {
+            Channels::Grey => needs.leave_out("three channels", "every colour of the scene is grey, so one channel carries all"),
+            Channels::Rgb => needs.model("three channels", "a reflectance or a lamp is coloured"),
+        }
+        if needs.direct {
+            needs.model("direct light", "the scene has a lamp");
+        }
+        match specular.filter(|_| needs.caustic) {
+            Some(id) => needs.model("caustic map", &format!("`{id}` is specular, so lamps can shine through or off it")),
+            None => needs.leave_out("caustic map", "no surface is specular"),
+        }
+        match indirect.filter(|_| needs.indirect) {
+            Some(reason) => needs.model("surface map", &reason),
+            None => needs.leave_out("surface map", "no light that a surface reflects diffusely can reach another surface"),
+        }
+        needs.leave_out("volume map", "the scene has no medium");
+        needs
+    }
+
+    fn model(&mut self, need: &str, reason: &str) {
+        self.list.push(Need { need: need.into(), reason: reason.into() });
+    }
+
+    fn leave_out(&mut self, need: &str, reason: &str) {
+        self.left_out.push(Need { need: need.into(), reason: reason.into() });
+    }
+}
+
+fn first_specular(scene: &Scene) -> Option<&str> {
+    scene.shapes.iter().find(|shape| is_specular(&shape.bsdf)).map(|shape| shape.id.as_str())
+}
+
+fn is_specular(bsdf: &Bsdf) -> bool {
+    match bsdf {
+        Bsdf::Diffuse { .. } => false,
+        Bsdf::Dielectric { .. } => true,
+        Bsdf::Mirror { reflectance } => *reflectance != [0.0; 3],
+        Bsdf::TwoSided { front, back } => is_specular(front) || is_specular(back),
+    }
+}
+
+fn reflects_diffusely(bsdf: &Bsdf) -> bool {
+    match bsdf {
+        Bsdf::Diffuse { reflectance } => *reflectance != [0.0; 3],
+        Bsdf::Dielectric { .. } | Bsdf::Mirror { .. } => false,
+        Bsdf::TwoSided { front, back } => reflects_diffusely(front) || reflects_diffusely(back),
+    }
+}
+
+/// Why diffusely reflected light can reach a surface that reads it, if it can.
+fn indirect_reason(scene: &Scene) -> Option<String> {
+    let reflecting: Vec<_> = scene.shapes.iter().filter(|shape| reflects_diffusely(&shape.bsdf)).collect();
+    let first = reflecting.first()?;
+    // One flat or convex face alone cannot light itself: its reflected light needs another surface to return from or
+    // to be read on.
+    let alone = scene.shapes.len() == 1 && matches!(first.geometry, Geometry::Rectangle { .. });
+    (!alone).then(|| format!("`{}` reflects diffusely and its light can reach a surface", first.id))
+}

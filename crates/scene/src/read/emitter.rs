@@ -1,0 +1,116 @@
+//! Lamps.
+
+use glam::{DAffine3, DVec3};
+
+use crate::{Emitter, Rgb};
+
+use super::element::Element;
+use super::error::SceneError;
+use super::number::Range;
+use super::object::Object;
+use super::plugins;
+use super::scene::Builder;
+use super::transform::unit;
+
+/// Reads a lamp that stands by itself and adds it to the scene.
+pub(super) fn emitter<'e>(
+    element: &'e Element,
+    builder: &mut Builder<'e>,
+) -> Result<(), SceneError> {
+    let object = Object::open(element)?;
+    plugins::check(&object)?;
+    let id = builder.id(element, "emitter", builder.scene.emitters.len())?;
+    let emitter = match object.plugin {
+        "point" => point(object, id, builder)?,
+        "directional" => directional(object, id, builder)?,
+        _ => {
+            return Err(element.error(
+                "an area lamp outside a shape",
+                "put it into the shape that shines",
+            ));
+        }
+    };
+    builder.scene.emitters.push(emitter);
+    Ok(())
+}
+
+/// The radiance of a lamp that stands inside a shape.
+pub(super) fn area(element: &Element, builder: &mut Builder) -> Result<Rgb, SceneError> {
+    let mut object = Object::open(element)?;
+    plugins::check(&object)?;
+    if object.plugin != "area" {
+        let what = format!("a {} lamp inside a shape", object.plugin);
+        return Err(element.error(what, "put it beside the shape, or use an area lamp"));
+    }
+    let radiance = emission(&mut object, "radiance", builder)?;
+    object.close(&[])?;
+    Ok(radiance)
+}
+
+fn point(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
+    let given = object.vector("position", Range::COORDINATE)?;
+    let to_world = object.transform()?;
+    check_one_of(&object, given, to_world, "position")?;
+    let position = given
+        .or(to_world.map(|transform| transform.translation))
+        .unwrap_or(DVec3::ZERO);
+    let intensity = emission(&mut object, "intensity", builder)?;
+    object.close(&[])?;
+    Ok(Emitter::Point {
+        id,
+        position,
+        intensity,
+    })
+}
+
+fn directional(
+    mut object: Object,
+    id: String,
+    builder: &mut Builder,
+) -> Result<Emitter, SceneError> {
+    let given = object.vector("direction", Range::ANY)?;
+    let to_world = object.transform()?;
+    check_one_of(&object, given, to_world, "direction")?;
+    let along = given
+        .or(to_world.map(|transform| transform.matrix3.z_axis))
+        .unwrap_or(DVec3::Z);
+    let direction = unit(along).ok_or_else(|| {
+        object
+            .element
+            .error("direction is zero", "give a direction such as 0 0 -1")
+    })?;
+    let irradiance = emission(&mut object, "irradiance", builder)?;
+    object.close(&[])?;
+    Ok(Emitter::Directional {
+        id,
+        direction,
+        irradiance,
+    })
+}
+
+/// The emitted quantity, 1 if the file does not say, as in Mitsuba.
+fn emission(
+    object: &mut Object,
+    name: &'static str,
+    builder: &mut Builder,
+) -> Result<Rgb, SceneError> {
+    if object.float("sampling_weight", Range::ANY)?.is_some() {
+        builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
+    }
+    Ok(object.colour(name, Range::EMISSION)?.unwrap_or([1.0; 3]))
+}
+
+fn check_one_of(
+    object: &Object,
+    given: Option<DVec3>,
+    to_world: Option<DAffine3>,
+    name: &str,
+) -> Result<(), SceneError> {
+    if given.is_some() && to_world.is_some() {
+        return Err(object.element.error(
+            format!("both {name} and to_world are given"),
+            "keep one of them",
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,101 @@
+//! The scene itself: its parts in the order of the file.
+
+use std::collections::HashMap;
+
+use crate::{Bsdf, Scene};
+
+use super::bsdf::bsdf;
+use super::element::Element;
+use super::emitter::emitter;
+use super::error::{Place, SceneError};
+use super::integrator::integrator;
+use super::load::Loaded;
+use super::names::quote;
+use super::sensor::{Position, sensor};
+use super::shape::shape;
+
+/// A scene on its way.
+pub(super) struct Builder<'e> {
+    pub(super) scene: Scene,
+    /// The bsdfs with an id that were read so far.
+    pub(super) bsdfs: HashMap<&'e str, Bsdf>,
+    /// Every id of the whole scene, where it is and of which tag.
+    pub(super) ids: &'e HashMap<String, (Place, &'static str)>,
+    pub(super) integrator: Option<&'e Element>,
+}
+
+/// Makes the scene that the tree describes.
+pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
+    let Loaded { root, ids, notes } = &loaded;
+    let scene = Scene {
+        shapes: Vec::new(),
+        emitters: Vec::new(),
+        sensors: Vec::new(),
+        max_depth: None,
+        notes: notes.clone(),
+    };
+    let mut builder = Builder {
+        scene,
+        bsdfs: HashMap::new(),
+        ids,
+        integrator: None,
+    };
+    for element in &root.children {
+        builder.part(element)?;
+    }
+    Ok(builder.scene)
+}
+
+impl<'e> Builder<'e> {
+    fn part(&mut self, element: &'e Element) -> Result<(), SceneError> {
+        match element.tag.name {
+            "integrator" => integrator(element, self),
+            "sensor" => sensor(element, Position::Free, self),
+            "shape" => shape(element, self),
+            "emitter" => emitter(element, self),
+            "bsdf" => bsdf(element, self).map(drop),
+            "film" | "sampler" => Err(element.error(
+                format!(
+                    "{} outside a sensor is known but not built yet",
+                    element.tag.name
+                ),
+                "put it into the sensor that uses it",
+            )),
+            _ => {
+                let what = format!(
+                    "{} cannot stand directly inside scene",
+                    quote(element.label())
+                );
+                Err(element.error(
+                    what,
+                    "a scene takes bsdf, default, emitter, include, integrator, sensor, shape",
+                ))
+            }
+        }
+    }
+
+    /// The element's id, or `STEM-NUMBER` if it has none and no other element has that.
+    pub(super) fn id(
+        &self,
+        element: &Element,
+        stem: &str,
+        number: usize,
+    ) -> Result<String, SceneError> {
+        if let Some(id) = element.attribute("id") {
+            return Ok(id.to_owned());
+        }
+        let id = format!("{stem}-{number}");
+        if let Some((place, _)) = self.ids.get(&id) {
+            let what = format!("without id it is called {id}, but that is the id at {place}");
+            return Err(element.error(what, "give it an id"));
+        }
+        Ok(id)
+    }
+
+    /// Adds a note, once.
+    pub(super) fn note(&mut self, text: &str) {
+        if !self.scene.notes.iter().any(|note| note == text) {
+            self.scene.notes.push(text.to_owned());
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Sensors: cameras and meters, each with its film.
+
+use glam::DAffine3;
+
+use crate::{Film, Meter, Receiver, Sensor};
+
+use super::camera::camera;
+use super::element::Element;
+use super::error::SceneError;
+use super::film;
+use super::integrator::sampler;
+use super::number::Range;
+use super::object::Object;
+use super::plugins;
+use super::scene::Builder;
+use super::transform::unit;
+
+/// Where a sensor stands in the file.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Position {
+    /// By itself.
+    Free,
+    /// Inside the shape of this index.
+    OnShape(usize),
+}
+
+/// Reads a sensor and adds it to the scene.
+pub(super) fn sensor<'e>(
+    element: &'e Element,
+    position: Position,
+    builder: &mut Builder<'e>,
+) -> Result<(), SceneError> {
+    let mut object = Object::open(element)?;
+    plugins::check(&object)?;
+    let film = object
+        .single(&["film"])?
+        .map(|film| film::film(film, builder))
+        .transpose()?;
+    if let Some(element) = object.single(&["sampler"])? {
+        sampler(element, builder)?;
+    }
+    check_shutter(&mut object)?;
+    let (receiver, film) = match (object.plugin, position) {
+        ("perspective", Position::Free) => {
+            let film = film.unwrap_or(film::DEFAULT);
+            (Receiver::Camera(camera(&mut object, film)?), film)
+        }
+        ("radiancemeter", Position::Free) => (
+            Receiver::Meter(radiancemeter(&mut object)?),
+            one_cell(&object, film)?,
+        ),
+        ("irradiancemeter", Position::OnShape(shape)) => (
+            Receiver::Meter(Meter::Irradiancemeter { shape }),
+            film.unwrap_or(ONE_CELL),
+        ),
+        ("irradiancemeter", Position::Free) => {
+            return Err(element.error(
+                "an irradiancemeter outside a shape",
+                "put it into the shape that it measures",
+            ));
+        }
+        (plugin, _) => {
+            return Err(element.error(
+                format!("a {plugin} inside a shape"),
+                "put it beside the shape",
+            ));
+        }
+    };
+    object.close(&["srf", "aperture_radius", "focus_distance"])?;
+    let id = builder.id(element, "sensor", builder.scene.sensors.len())?;
+    builder.scene.sensors.push(Sensor { id, receiver, film });
+    Ok(())
+}
+
+const ONE_CELL: Film = Film {
+    width: 1,
+    height: 1,
+};
+
+fn one_cell(object: &Object, film: Option<Film>) -> Result<Film, SceneError> {
+    match film.unwrap_or(ONE_CELL) {
+        ONE_CELL => Ok(ONE_CELL),
+        Film { width, height } => {
+            let what = format!("a radiancemeter has one cell, its film {width} x {height}");
+            Err(object
+                .element
+                .error(what, "set width and height to 1, or remove the film"))
+        }
+    }
+}
+
+fn radiancemeter(object: &mut Object) -> Result<Meter, SceneError> {
+    let origin = object.vector("origin", Range::COORDINATE)?;
+    let direction = object.vector("direction", Range::ANY)?;
+    let to_world = object.transform()?;
+    let fail = |what: &str, mend: &str| Err(object.element.error(what, mend));
+    let (origin, along) = match (origin, direction, to_world) {
+        (Some(origin), Some(direction), None) => (origin, direction),
+        (None, None, transform) => {
+            let transform = transform.unwrap_or(DAffine3::IDENTITY);
+            (transform.translation, transform.matrix3.z_axis)
+        }
+        (_, _, Some(_)) => {
+            return fail(
+                "to_world is given beside origin or direction",
+                "keep one of the two",
+            );
+        }
+        (_, _, None) => {
+            return fail(
+                "origin and direction are not both given",
+                "give both, or to_world",
+            );
+        }
+    };
+    match unit(along) {
+        Some(direction) => Ok(Meter::Radiancemeter { origin, direction }),
+        None => fail("direction is zero", "give a direction such as 0 0 1"),
+    }
+}
+
+/// The scene stands still, so only the default shutter is the same thing in both programs.
+fn check_shutter(object: &mut Object) -> Result<(), SceneError> {
+    for name in ["shutter_open", "shutter_close"] {
+        if object
+            .float(name, Range::ANY)?
+            .is_some_and(|time| time != 0.0)
+        {
+            return Err(object.element.error(
+                format!("{name} other than 0 is known but not built yet"),
+                "remove it",
+            ));
+        }
+    }
+    Ok(())
+}

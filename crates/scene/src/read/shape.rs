@@ -1,0 +1,77 @@
+//! Shapes, with the coating, lamp and meters that stand inside them.
+
+use glam::DAffine3;
+
+use crate::{Bsdf, Geometry, Rgb, Shape};
+
+use super::bsdf::{TAGS, bsdf};
+use super::element::Element;
+use super::emitter::area;
+use super::error::SceneError;
+use super::number::Range;
+use super::object::Object;
+use super::plugins;
+use super::scene::Builder;
+use super::sensor::{Position, sensor};
+use super::sphere::sphere;
+
+/// Reads a shape and adds it, with its meters, to the scene.
+pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
+    let mut object = Object::open(element)?;
+    plugins::check(&object)?;
+    let (geometry, mirrored) = geometry(&mut object)?;
+    let flipped = object.boolean("flip_normals")?.unwrap_or(false);
+    if object
+        .float("silhouette_sampling_weight", Range::ANY)?
+        .is_some()
+    {
+        builder.note(
+            "silhouette_sampling_weight is for Mitsuba's own sampling and has no effect here",
+        );
+    }
+    let coating = object.single(&TAGS)?;
+    let lamp = object.single(&["emitter"])?;
+    let meters = object.objects(&["sensor"]);
+    object.close(&["to_uv"])?;
+
+    let radiance = lamp.map(|lamp| area(lamp, builder)).transpose()?;
+    let bsdf = match coating {
+        Some(coating) => bsdf(coating, builder)?,
+        None => uncoated(radiance),
+    };
+    let index = builder.scene.shapes.len();
+    let id = builder.id(element, "shape", index)?;
+    builder.scene.shapes.push(Shape {
+        id,
+        geometry,
+        flip_normals: flipped != mirrored,
+        bsdf,
+        radiance,
+    });
+    meters
+        .into_iter()
+        .try_for_each(|meter| sensor(meter, Position::OnShape(index), builder))
+}
+
+/// The geometry, and whether a mirror in `to_world` turns its normals around beyond what [`Geometry`] says.
+fn geometry(object: &mut Object) -> Result<(Geometry, bool), SceneError> {
+    if object.plugin == "sphere" {
+        return sphere(object);
+    }
+    let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
+    Ok(match object.plugin {
+        "cube" => (Geometry::Cube { to_world }, false),
+        _ => (Geometry::Rectangle { to_world }, false),
+    })
+}
+
+/// Mitsuba's coating of a shape without one.
+fn uncoated(radiance: Option<Rgb>) -> Bsdf {
+    Bsdf::Diffuse {
+        reflectance: if radiance.is_some() {
+            [0.0; 3]
+        } else {
+            [0.5; 3]
+        },
+    }
+}

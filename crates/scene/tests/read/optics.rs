@@ -1,0 +1,321 @@
+//! What light does: coatings, lamps, cameras and meters.
+
+use glam::DVec3;
+use photonlab_scene::{Bsdf, Camera, Emitter, Meter, Receiver};
+
+use super::scene;
+
+fn bsdf(xml: &str) -> Bsdf {
+    scene(&format!("<shape type='sphere'>{xml}</shape>"))
+        .shapes
+        .remove(0)
+        .bsdf
+}
+
+fn diffuse(reflectance: f64) -> Bsdf {
+    Bsdf::Diffuse {
+        reflectance: [reflectance; 3],
+    }
+}
+
+#[test]
+fn colours_have_many_spellings() {
+    for (xml, expected) in [
+        ("<rgb name='reflectance' value='0.25'/>", [0.25; 3]),
+        (
+            "<rgb name='reflectance' value='0.1, 0.2,0.3'/>",
+            [0.1, 0.2, 0.3],
+        ),
+        (
+            "<rgb name='reflectance' value=' 0.1 0.2  0.3 '/>",
+            [0.1, 0.2, 0.3],
+        ),
+        ("<spectrum name='reflectance' value='0.25'/>", [0.25; 3]),
+        ("<float name='reflectance' value='0.25'/>", [0.25; 3]),
+        ("<float name='reflectance' value='2.5e-1'/>", [0.25; 3]),
+        ("", [0.5; 3]),
+    ] {
+        let found = bsdf(&format!("<bsdf type='diffuse'>{xml}</bsdf>"));
+        assert_eq!(
+            found,
+            Bsdf::Diffuse {
+                reflectance: expected
+            },
+            "{xml}"
+        );
+    }
+}
+
+#[test]
+fn a_shape_without_coating_is_grey_or_black() {
+    assert_eq!(bsdf(""), diffuse(0.5));
+    assert_eq!(bsdf("<emitter type='area'/>"), diffuse(0.0));
+}
+
+#[test]
+fn dielectrics_take_numbers_and_names() {
+    let dielectric = |interior_index, exterior_index| Bsdf::Dielectric {
+        interior_index,
+        exterior_index,
+    };
+    assert_eq!(
+        bsdf("<bsdf type='dielectric'/>"),
+        dielectric(1.5046, 1.000277)
+    );
+    let named =
+        "<string name='int_ior' value='Diamond'/><string name='ext_ior' value='carbon dioxide'/>";
+    assert_eq!(
+        bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")),
+        dielectric(2.419, 1.00045)
+    );
+    let numbers = "<float name='int_ior' value='1'/><integer name='ext_ior' value='2'/>
+        <rgb name='specular_reflectance' value='1 1 1'/><float name='specular_transmittance' value='1'/>";
+    assert_eq!(
+        bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")),
+        dielectric(1.0, 2.0)
+    );
+}
+
+#[test]
+fn a_conductor_of_no_metal_is_a_mirror() {
+    for xml in ["", "<string name='material' value='none'/>"] {
+        assert_eq!(
+            bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")),
+            Bsdf::Mirror {
+                reflectance: [1.0; 3]
+            }
+        );
+    }
+    let dim =
+        "<bsdf type='conductor'><rgb name='specular_reflectance' value='0.9 0.8 0.7'/></bsdf>";
+    assert_eq!(
+        bsdf(dim),
+        Bsdf::Mirror {
+            reflectance: [0.9, 0.8, 0.7]
+        }
+    );
+}
+
+#[test]
+fn twosided_shows_a_front_on_each_side() {
+    let grey = |value: f64| {
+        format!("<bsdf type='diffuse'><float name='reflectance' value='{value}'/></bsdf>")
+    };
+    let two = |front: f64, back: f64| Bsdf::TwoSided {
+        front: Box::new(diffuse(front)),
+        back: Box::new(diffuse(back)),
+    };
+    assert_eq!(
+        bsdf(&format!("<bsdf type='twosided'>{}</bsdf>", grey(0.1))),
+        two(0.1, 0.1)
+    );
+    assert_eq!(
+        bsdf(&format!(
+            "<bsdf type='twosided'>{}{}</bsdf>",
+            grey(0.1),
+            grey(0.2)
+        )),
+        two(0.1, 0.2)
+    );
+    // Checked against Mitsuba 3.9.1: a twosided inside shows its front.
+    let inner = format!("<bsdf type='twosided'>{}{}</bsdf>", grey(0.2), grey(0.3));
+    assert_eq!(
+        bsdf(&format!(
+            "<bsdf type='twosided'>{}{inner}</bsdf>",
+            grey(0.1)
+        )),
+        two(0.1, 0.2)
+    );
+}
+
+#[test]
+fn a_ref_stands_for_an_earlier_bsdf() {
+    let scene = scene(
+        "<bsdf type='diffuse' id='a'><float name='reflectance' value='0.1'/></bsdf>
+         <bsdf type='twosided' id='b'><ref id='a'/></bsdf>
+         <shape type='cube'><ref id='a'/></shape>
+         <shape type='cube'><ref name='bsdf' id='b'/></shape>
+         <shape type='cube'><bsdf type='conductor' id='c'/></shape>
+         <shape type='cube'><ref id='c'/></shape>",
+    );
+    let both = Bsdf::TwoSided {
+        front: Box::new(diffuse(0.1)),
+        back: Box::new(diffuse(0.1)),
+    };
+    let mirror = Bsdf::Mirror {
+        reflectance: [1.0; 3],
+    };
+    let found: Vec<Bsdf> = scene.shapes.into_iter().map(|shape| shape.bsdf).collect();
+    assert_eq!(found, [diffuse(0.1), both, mirror.clone(), mirror]);
+}
+
+#[test]
+fn lamps_have_positions_directions_and_strengths() {
+    let scene = scene(
+        "<emitter type='point' id='p'><transform name='to_world'><scale value='2'/><translate x='1'/></transform>
+           <float name='intensity' value='3'/></emitter>
+         <emitter type='directional'><transform name='to_world'><rotate x='1' angle='180'/></transform></emitter>
+         <emitter type='directional'><vector name='direction' value='3 0 -4'/>
+           <spectrum name='irradiance' value='0'/></emitter>
+         <shape type='rectangle'><emitter type='area'><rgb name='radiance' value='1 2 3'/></emitter></shape>",
+    );
+    let directional = |number: usize, direction, irradiance| Emitter::Directional {
+        id: format!("emitter-{number}"),
+        direction,
+        irradiance: [irradiance; 3],
+    };
+    assert_eq!(
+        scene.emitters[0],
+        Emitter::Point {
+            id: "p".to_owned(),
+            position: DVec3::X,
+            intensity: [3.0; 3]
+        }
+    );
+    assert_eq!(scene.emitters[1], directional(1, DVec3::NEG_Z, 1.0));
+    assert_eq!(
+        scene.emitters[2],
+        directional(2, DVec3::new(0.6, 0.0, -0.8), 0.0)
+    );
+    assert_eq!(scene.shapes[0].radiance, Some([1.0, 2.0, 3.0]));
+}
+
+#[test]
+fn directions_of_any_length_are_directions() {
+    for length in ["e-300", "e-9", "e100", "e300"] {
+        let direction = format!("<vector name='direction' value='3{length} 0 -4{length}'/>");
+        let scene = scene(&format!(
+            "<emitter type='directional'>{direction}</emitter>"
+        ));
+        let Emitter::Directional { direction, .. } = &scene.emitters[0] else {
+            panic!("{length}")
+        };
+        assert!(
+            (*direction - DVec3::new(0.6, 0.0, -0.8)).length() < 1e-15,
+            "{length}: {direction}"
+        );
+    }
+}
+
+fn camera(inside: &str, width: u32, height: u32) -> Camera {
+    let body = format!(
+        "<sensor type='perspective'>{inside}<film type='hdrfilm'><integer name='width' value='{width}'/>
+         <integer name='height' value='{height}'/></film></sensor>"
+    );
+    match scene(&body).sensors.remove(0).receiver {
+        Receiver::Camera(camera) => camera,
+        Receiver::Meter(meter) => panic!("{meter:?}"),
+    }
+}
+
+/// The fields of view along x that Mitsuba 3.9.1 prints.
+#[test]
+fn fields_of_view_are_mitsubas() {
+    for (inside, width, height, degrees) in [
+        ("", 768, 576, 38.1848),
+        ("", 300, 100, 44.6327),
+        (
+            "<string name='focal_length' value='50mm'/>",
+            768,
+            576,
+            38.1848,
+        ),
+        (
+            "<string name='focal_length' value='50'/>",
+            768,
+            576,
+            38.1848,
+        ),
+        (
+            "<string name='focal_length' value='50 mm'/>",
+            768,
+            576,
+            38.1848,
+        ),
+        ("<float name='fov' value='60'/>", 300, 100, 60.0),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='x'/>",
+            300,
+            100,
+            60.0,
+        ),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='larger'/>",
+            300,
+            100,
+            60.0,
+        ),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>",
+            300,
+            100,
+            120.0,
+        ),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='y'/>",
+            300,
+            100,
+            120.0,
+        ),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='diagonal'/>",
+            300,
+            100,
+            57.421,
+        ),
+        (
+            "<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>",
+            100,
+            300,
+            60.0,
+        ),
+    ] {
+        let camera = camera(inside, width, height);
+        let found = 2.0 * camera.tan_half_width.atan().to_degrees();
+        assert!((found - degrees).abs() < 1e-4, "{inside}: {found}");
+        let aspect = f64::from(width) / f64::from(height);
+        assert!((camera.tan_half_width / camera.tan_half_height / aspect - 1.0).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn cameras_have_mitsubas_defaults() {
+    let plain = camera("", 10, 10);
+    assert_eq!(
+        (
+            plain.near_clip,
+            plain.far_clip,
+            plain.principal_point_offset
+        ),
+        (0.01, 10000.0, [0.0; 2])
+    );
+    let shifted = camera(
+        "<float name='principal_point_offset_y' value='-0.25'/><float name='shutter_open' value='0'/>
+         <transform name='to_world'><scale x='-1'/></transform>",
+        10,
+        10,
+    );
+    assert_eq!(shifted.principal_point_offset, [0.0, -0.25]);
+    assert_eq!(shifted.to_world.matrix3.x_axis, DVec3::NEG_X);
+}
+
+#[test]
+fn radiancemeters_look_along_z_or_a_direction() {
+    let meter =
+        |inside: &str| match scene(&format!("<sensor type='radiancemeter'>{inside}</sensor>"))
+            .sensors
+            .remove(0)
+        {
+            photonlab_scene::Sensor {
+                receiver: Receiver::Meter(Meter::Radiancemeter { origin, direction }),
+                ..
+            } => (origin, direction),
+            other => panic!("{other:?}"),
+        };
+    assert_eq!(meter(""), (DVec3::ZERO, DVec3::Z));
+    let stated =
+        "<point name='origin' value='1 2 3'/><vector name='direction' x='0' y='-9' z='0'/>";
+    assert_eq!(meter(stated), (DVec3::new(1.0, 2.0, 3.0), DVec3::NEG_Y));
+    let moved = "<transform name='to_world'><scale value='7'/><rotate y='1' angle='90'/><translate z='1'/></transform>";
+    assert_eq!(meter(moved), (DVec3::Z, DVec3::X));
+}

@@ -1,0 +1,70 @@
+//! Follows photons until they are absorbed and keeps the books.
+//!
+//! [`trace`] sends every photon of an [`photonlab_sampling::EmissionPlan`] through a world and returns what it left at
+//! diffuse surfaces, in one array whose order depends on the photons' numbers alone, and the [`Ledger`].
+#![forbid(unsafe_code)]
+
+mod ledger;
+mod path;
+
+pub use ledger::{Book, Ledger, SurfaceBook};
+pub use path::{Classes, Limits, TraceError};
+
+use photonlab_photometry::Photon;
+use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_scene::World;
+use rayon::prelude::*;
+
+/// Photons followed by one task; part of nothing that can be read from the result.
+const CHUNK: u64 = 2048;
+
+/// What the photons left behind.
+#[derive(Clone, Debug)]
+pub struct Traced<const C: usize> {
+    /// Where each record was stored, metres.
+    pub positions: Vec<[f32; 3]>,
+    /// The records, in the order of their photons' numbers and along each path.
+    pub photons: Vec<Photon<C>>,
+    /// Where all flux went.
+    pub ledger: Ledger<C>,
+}
+
+/// What to trace.
+#[derive(Clone, Copy, Debug)]
+pub struct Job {
+    /// The run's seed.
+    pub seed: u64,
+    /// Number of the pass; passes share no random number.
+    pub pass: u32,
+    /// When a path ends early.
+    pub limits: Limits,
+    /// Which photons are kept; all are followed and booked.
+    pub keep: Classes,
+}
+
+/// Follows all photons of a plan.
+pub fn trace<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    plan: &EmissionPlan<C>,
+    job: &Job,
+) -> Result<Traced<C>, TraceError> {
+    let chunks: Vec<Result<Traced<C>, TraceError>> = (0..plan.photons().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| {
+            let mut part = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
+            for index in chunk * CHUNK..((chunk + 1) * CHUNK).min(plan.photons()) {
+                path::follow(world, lamps, plan, job, index, &mut part)?;
+            }
+            Ok(part)
+        })
+        .collect();
+    let mut whole = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
+    for part in chunks {
+        let part = part?;
+        whole.positions.extend(part.positions);
+        whole.photons.extend(part.photons);
+        whole.ledger.add(&part.ledger);
+    }
+    Ok(whole)
+}

@@ -1,0 +1,247 @@
+//! One photon's path.
+
+use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
+use photonlab_sampling::{EmissionPlan, Interaction, Lamps, Purpose, Specular, Stream, interaction, warp};
+use photonlab_scene::{Hit, Ray, World};
+
+use crate::{Job, SurfaceBook, Traced, ledger::Book};
+
+/// Which classes of photon are kept.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Classes {
+    /// Straight from the lamp.
+    pub direct: bool,
+    /// Through specular surfaces alone.
+    pub caustic: bool,
+    /// After a diffuse interaction.
+    pub indirect: bool,
+}
+
+impl Classes {
+    /// Every class.
+    pub const ALL: Classes = Classes { direct: true, caustic: true, indirect: true };
+    /// No class: transport is only booked.
+    pub const NONE: Classes = Classes { direct: false, caustic: false, indirect: false };
+
+    /// True if a class is kept.
+    pub fn has(&self, class: PathClass) -> bool {
+        match class {
+            PathClass::Direct => self.direct,
+            PathClass::Caustic => self.caustic,
+            PathClass::Indirect => self.indirect,
+        }
+    }
+
+    /// True if every class of `other` is in this set.
+    pub fn contains(&self, other: Classes) -> bool {
+        PathClass::ALL.into_iter().all(|class| self.has(class) || !other.has(class))
+    }
+}
+
+/// When a path ends before it is absorbed or escapes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Longest path in segments; `None` is unlimited.
+    pub max_segments: Option<u32>,
+    /// Longest run of lossless specular interactions.
+    pub max_specular: u32,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { max_segments: None, max_specular: 1000 }
+    }
+}
+
+/// Why photons cannot be followed to an end.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TraceError {
+    /// A closed scene that absorbs nothing has no steady state.
+    #[error(
+        "a path lost no light over {LOSSLESS} diffuse interactions (the last on `{shape}`): light in this scene has no \
+         steady state; lower a reflectance below 1, or limit the path with --max-depth"
+    )]
+    Lossless {
+        /// The shape it was on.
+        shape: String,
+    },
+}
+
+/// Diffuse interactions without any loss after which a scene counts as lossless.
+const LOSSLESS: u32 = 1_000_000;
+
+struct Walk<'w, const C: usize> {
+    ray: Ray,
+    from: Option<u32>,
+    flux: Colour<C>,
+    class: PathClass,
+    segments: u32,
+    /// Lossless specular interactions in a row.
+    specular_run: u32,
+    /// Diffuse interactions since the path last lost light.
+    lossless_run: u32,
+    world: &'w World,
+}
+
+enum Fate {
+    GoesOn,
+    Ended,
+}
+
+pub(crate) fn follow<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    plan: &EmissionPlan<C>,
+    job: &Job,
+    index: u64,
+    out: &mut Traced<C>,
+) -> Result<(), TraceError> {
+    let mut stream = Stream::new(job.seed, Purpose::Photons, job.pass, index);
+    let (lamp, flux) = plan.photon(index);
+    let emission = lamps.lamps[lamp].emit(world, &mut stream);
+    out.ledger.emitted += flux;
+    let mut walk = Walk {
+        ray: emission.ray,
+        from: emission.from,
+        flux,
+        class: PathClass::Direct,
+        segments: 0,
+        specular_run: 0,
+        lossless_run: 0,
+        world,
+    };
+    while let Fate::GoesOn = walk.step(job, &mut stream, out) {
+        if walk.lossless_run >= LOSSLESS {
+            let shape = world.shape_of(walk.from.unwrap_or(0)).id.clone();
+            return Err(TraceError::Lossless { shape });
+        }
+    }
+    Ok(())
+}
+
+impl<const C: usize> Walk<'_, C> {
+    /// Follows one segment and what happens at its end.
+    fn step(&mut self, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        if job.limits.max_segments.is_some_and(|max| self.segments >= max) {
+            self.book(out).cut_off += self.flux;
+            return Fate::Ended;
+        }
+        let Some(hit) = self.world.cast(&self.ray, self.from, f64::INFINITY) else {
+            self.book(out).escaped += self.flux;
+            return Fate::Ended;
+        };
+        self.segments += 1;
+        self.surface(&hit, out).incident += self.flux;
+        self.from = Some(hit.point.primitive);
+        match interaction(self.world, &hit) {
+            Interaction::Absorbed => {
+                self.absorb(&hit, self.flux, out);
+                Fate::Ended
+            }
+            Interaction::Diffuse { reflectance } => {
+                self.store(&hit, job, out);
+                self.reflect(&hit, reflectance, stream, out)
+            }
+            Interaction::Specular(specular) => self.pass_on(&hit, specular, job, stream, out),
+        }
+    }
+
+    fn store(&self, hit: &Hit, job: &Job, out: &mut Traced<C>) {
+        if job.keep.has(self.class) {
+            out.positions.push(hit.point.position.as_vec3().to_array());
+            out.photons.push(Photon {
+                flux: self.flux.to_f32(),
+                direction: PackedDirection::pack(self.ray.direction.to_array()),
+                normal: PackedDirection::pack(hit.facing_normal().to_array()),
+                class: self.class,
+                segments: self.segments.min(u32::from(u16::MAX)) as u16,
+            });
+        }
+    }
+
+    fn reflect(&mut self, hit: &Hit, reflectance: Colour<C>, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        let before = self.flux.max();
+        self.lossless_run = if reflectance == Colour::ONE { self.lossless_run + 1 } else { 0 };
+        self.specular_run = 0;
+        self.keep_share(hit, reflectance, out);
+        // The survivor's strongest channel keeps the strength it had: photons stay of like flux, and no channel's mean
+        // is changed.
+        let survival = self.flux.max() / before;
+        if let Fate::Ended = self.roulette(survival, stream, out) {
+            return Fate::Ended;
+        }
+        self.class = PathClass::Indirect;
+        let direction = warp::square_to_cosine_hemisphere(stream.next2(), hit.facing_normal());
+        self.leave(hit, Ray::new(hit.point.position, direction), out);
+        Fate::GoesOn
+    }
+
+    fn pass_on(
+        &mut self,
+        hit: &Hit,
+        specular: Specular<C>,
+        job: &Job,
+        stream: &mut Stream,
+        out: &mut Traced<C>,
+    ) -> Fate {
+        let (ray, share, _) = specular.follow(&self.ray, hit, stream);
+        self.specular_run = if share == Colour::ONE { self.specular_run + 1 } else { 0 };
+        if self.specular_run > job.limits.max_specular {
+            self.book(out).cut_off += self.flux;
+            out.ledger.trapped_paths += 1;
+            return Fate::Ended;
+        }
+        let before = self.flux.max();
+        self.keep_share(hit, share, out);
+        let survival = self.flux.max() / before;
+        if let Fate::Ended = self.roulette(survival, stream, out) {
+            return Fate::Ended;
+        }
+        if self.class == PathClass::Direct {
+            self.class = PathClass::Caustic;
+        }
+        self.leave(hit, ray, out);
+        Fate::GoesOn
+    }
+
+    /// Absorbs what the coating does not hand on.
+    fn keep_share(&mut self, hit: &Hit, share: Colour<C>, out: &mut Traced<C>) {
+        let kept = self.flux * share;
+        self.absorb(hit, self.flux - kept, out);
+        self.flux = kept;
+    }
+
+    /// Ends the path with probability 1 - survival or strengthens it by 1 / survival.
+    fn roulette(&mut self, survival: f64, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        if survival >= 1.0 {
+            return Fate::GoesOn;
+        }
+        if stream.next() >= survival {
+            self.book(out).roulette_loss += self.flux;
+            return Fate::Ended;
+        }
+        let stronger = self.flux * (1.0 / survival);
+        self.book(out).roulette_gain += stronger - self.flux;
+        self.flux = stronger;
+        Fate::GoesOn
+    }
+
+    fn leave(&mut self, hit: &Hit, ray: Ray, out: &mut Traced<C>) {
+        self.surface(hit, out).outgoing += self.flux;
+        self.ray = ray;
+    }
+
+    fn absorb(&self, hit: &Hit, flux: Colour<C>, out: &mut Traced<C>) {
+        self.book(out).absorbed += flux;
+        self.surface(hit, out).absorbed += flux;
+    }
+
+    fn book<'a>(&self, out: &'a mut Traced<C>) -> &'a mut Book<C> {
+        &mut out.ledger.classes[self.class as usize]
+    }
+
+    fn surface<'a>(&self, hit: &Hit, out: &'a mut Traced<C>) -> &'a mut SurfaceBook<C> {
+        let shape = self.world.primitives[hit.point.primitive as usize].shape;
+        &mut out.ledger.surfaces[shape as usize]
+    }
+}

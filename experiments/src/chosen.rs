@@ -1,0 +1,144 @@
+//! The method that the options ask for; an option that it does not use is an error.
+
+use std::time::Duration;
+
+use photonlab_gather::AreaModel;
+use photonlab_photometry::UnitSystem;
+use photonlab_readout::{Direct, Method, Settings, Wanted};
+use photonlab_scene::Scene;
+use photonlab_trace::Limits;
+
+use crate::{
+    Failure,
+    command::{AreaName, DeviceName, DirectName, KernelName, MethodName, Options, UnitsName},
+};
+
+/// Photons of a nearest-photon estimate unless asked otherwise.
+const DEFAULT_K: usize = 50;
+
+impl Options {
+    /// The settings for a scene.
+    pub(crate) fn settings(&self, scene: &Scene) -> Result<Settings, Failure> {
+        self.refuse_what_is_not_built()?;
+        let name = self.method_name()?;
+        for (option, given, users) in self.uses() {
+            if given && !users.contains(&name) {
+                let users: Vec<_> = users.iter().map(|user| user.text()).collect();
+                return Err(Failure::usage(format!(
+                    "--{option} is not used by the method {}; leave it out, or choose --method {}",
+                    name.text(),
+                    users.join(" or ")
+                )));
+            }
+        }
+        let k = self.k.unwrap_or(DEFAULT_K as u64);
+        if k < 2 {
+            return Err(Failure::usage("--k must be at least 2: the k-th photon only sets the radius"));
+        }
+        let method = match name {
+            MethodName::Nearest => Method::Nearest { k: usize::try_from(k).unwrap_or(usize::MAX) },
+            MethodName::Radius => Method::Radius { radius: self.radius },
+            MethodName::Path => Method::Path,
+            _ => Method::FinalGather { radius: self.radius },
+        };
+        let direct = match self.direct {
+            Some(DirectName::Photons) => Direct::Photons,
+            Some(DirectName::Sampled) | None => Direct::Sampled,
+        };
+        let area = match self.area {
+            Some(AreaName::Sphere) => AreaModel::Sphere,
+            _ => AreaModel::Disc,
+        };
+        Ok(Settings {
+            method,
+            direct,
+            area,
+            gather_rays: self.gather_rays.unwrap_or(1),
+            seed: self.seed,
+            limits: Limits {
+                max_segments: self.max_depth.or(scene.max_depth),
+                max_specular: self.max_specular.unwrap_or(Limits::default().max_specular),
+            },
+        })
+    }
+
+    /// Counts and ends.
+    pub(crate) fn wanted(&self) -> Wanted {
+        Wanted {
+            photons: self.photons,
+            passes: self.passes,
+            samples: self.spp,
+            target_error: self.target_error,
+            time_limit: self.time_limit.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
+        }
+    }
+
+    /// The unit system of results.
+    pub(crate) fn unit_system(&self) -> UnitSystem {
+        match self.units {
+            UnitsName::Radiometric => UnitSystem::Radiometric,
+            UnitsName::Photometric => UnitSystem::Photometric,
+        }
+    }
+
+    /// `auto` takes the first method, in this order, that uses every option given.
+    fn method_name(&self) -> Result<MethodName, Failure> {
+        if self.method != MethodName::Auto {
+            return Ok(self.method);
+        }
+        let uses = self.uses();
+        let fits = |name: MethodName| uses.iter().all(|(_, given, users)| !given || users.contains(&name));
+        let order = [MethodName::FinalGather, MethodName::Radius, MethodName::Nearest, MethodName::Path];
+        order.into_iter().find(|&name| fits(name)).ok_or_else(|| {
+            let given: Vec<_> = uses.iter().filter(|(_, given, _)| *given).map(|(option, ..)| format!("--{option}")).collect();
+            Failure::usage(format!("no method uses all of {}; leave one out", given.join(", ")))
+        })
+    }
+
+    /// The options that not every method uses, whether each was given, and the methods that use it.
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 8] {
+        use MethodName::{FinalGather, Nearest, Radius};
+        [
+            ("k", self.k.is_some(), &[Nearest]),
+            ("radius", self.radius.is_some(), &[FinalGather, Radius]),
+            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest]),
+            ("area", self.area.is_some(), &[Radius, Nearest]),
+            ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
+            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest]),
+            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest]),
+            ("map", self.map.is_some(), &[FinalGather, Radius, Nearest]),
+        ]
+    }
+
+    fn refuse_what_is_not_built(&self) -> Result<(), Failure> {
+        let not_built = match self.method {
+            MethodName::Adaptive => Some("--method adaptive"),
+            MethodName::Progressive => Some("--method progressive"),
+            MethodName::Bins => Some("--method bins"),
+            _ if self.cache => Some("--cache"),
+            _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => Some("a kernel other than disc"),
+            _ if self.area == Some(AreaName::Clipped) => Some("--area clipped"),
+            _ if self.device == DeviceName::Gpu => Some("--device gpu"),
+            _ => None,
+        };
+        match not_built {
+            Some(what) => Err(Failure::usage(format!("{what} is not built yet; leave it out"))),
+            None => Ok(()),
+        }
+    }
+}
+
+impl MethodName {
+    fn text(self) -> &'static str {
+        match self {
+            MethodName::Auto => "auto",
+            MethodName::Nearest => "nearest",
+            MethodName::Radius => "radius",
+            MethodName::Adaptive => "adaptive",
+            MethodName::FinalGather => "final-gather",
+            MethodName::Progressive => "progressive",
+            MethodName::Bins => "bins",
+            MethodName::Path => "path",
+        }
+    }
+}

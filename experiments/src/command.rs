@@ -1,0 +1,221 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::number;
+
+/// Photon-map illuminance with error bars that hold.
+#[derive(Parser)]
+#[command(name = "photonlab", version, about, subcommand_required = true, arg_required_else_help = true)]
+pub(crate) struct Photonlab {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Every meter of a scene, with error bars.
+    Measure(Measure),
+    /// An image with its error layers.
+    Render(Render),
+    /// What a scene needs, and why.
+    Plan(Plan),
+    /// Save and describe photon maps.
+    Map(Map),
+}
+
+/// The scene and what it defines.
+#[derive(Args, Clone)]
+pub(crate) struct SceneArguments {
+    /// A scene file (Mitsuba 3 XML).
+    #[arg(value_name = "SCENE")]
+    pub(crate) scene: PathBuf,
+    /// Sets a `<default>` of the scene.
+    #[arg(short = 'D', value_name = "NAME=VALUE", value_parser = number::definition)]
+    pub(crate) define: Vec<(String, String)>,
+}
+
+/// How light is found, shared by `measure`, `render` and `map build`.
+#[derive(Args, Clone)]
+pub(crate) struct Options {
+    /// How light at a point is found.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) method: MethodName,
+    /// Where direct light comes from when the map is read at the point itself [default: sampled].
+    #[arg(long, value_enum)]
+    pub(crate) direct: Option<DirectName>,
+    /// Emitted paths in all, over lamps and passes.
+    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    pub(crate) photons: Option<u64>,
+    /// Photons of a nearest-photon estimate [default: 50].
+    #[arg(long, value_name = "K", value_parser = number::positive_count)]
+    pub(crate) k: Option<u64>,
+    /// Gather radius in metres [default: from scene and photons].
+    #[arg(long, value_name = "R", value_parser = number::positive)]
+    pub(crate) radius: Option<f64>,
+    /// Weight of a photon by its distance.
+    #[arg(long, value_enum)]
+    pub(crate) kernel: Option<KernelName>,
+    /// What gathered flux is divided by [default: disc].
+    #[arg(long, value_enum)]
+    pub(crate) area: Option<AreaName>,
+    /// Final-gather rays per point [default: 1].
+    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    pub(crate) gather_rays: Option<u32>,
+    /// Cache final gather's results.
+    #[arg(long)]
+    pub(crate) cache: bool,
+    /// Passes, each with photons and rays of its own.
+    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    pub(crate) passes: Option<u64>,
+    /// Longest light path in segments, as Mitsuba counts them.
+    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    pub(crate) max_depth: Option<u32>,
+    /// Longest run of lossless specular events [default: 1000].
+    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    pub(crate) max_specular: Option<u32>,
+    /// Photons from a saved map.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) map: Option<PathBuf>,
+    /// Size of the image.
+    #[arg(long, value_name = "WxH", value_parser = number::size)]
+    pub(crate) size: Option<[u32; 2]>,
+    /// Points per pixel or cell in all.
+    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    pub(crate) spp: Option<u64>,
+    /// The sensor to read [default: render: the first camera; measure: every meter].
+    #[arg(long, value_name = "ID")]
+    pub(crate) sensor: Option<String>,
+    /// Seed of all random numbers.
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Threads [default: all cores]. No result depends on it.
+    #[arg(long, value_name = "T", value_parser = number::small_count)]
+    pub(crate) threads: Option<u32>,
+    /// Where to compute.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) device: DeviceName,
+    /// Stop when the interval's half-width is this share of the value (1% or 0.01).
+    #[arg(long, value_name = "E", value_parser = number::share)]
+    pub(crate) target_error: Option<f64>,
+    /// Confidence of the intervals.
+    #[arg(long, value_name = "P", value_parser = number::probability, default_value = "0.95")]
+    pub(crate) confidence: f64,
+    /// Stop after this wall time.
+    #[arg(long, value_name = "SECONDS", value_parser = number::positive)]
+    pub(crate) time_limit: Option<f64>,
+    /// Units of results.
+    #[arg(long, value_enum, default_value = "radiometric")]
+    pub(crate) units: UnitsName,
+}
+
+#[derive(Args)]
+pub(crate) struct Measure {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Write one JSON object.
+    #[arg(long)]
+    pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) options: Options,
+}
+
+#[derive(Args)]
+pub(crate) struct Render {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// The image: .exr with error layers, or .png for looking at.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    /// Colours with a legend in the image's unit (.png).
+    #[arg(long)]
+    pub(crate) false_colour: bool,
+    #[command(flatten)]
+    pub(crate) options: Options,
+}
+
+#[derive(Args)]
+pub(crate) struct Plan {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// The wanted error.
+    #[arg(long, value_name = "E", value_parser = number::share)]
+    pub(crate) target_error: Option<f64>,
+}
+
+#[derive(Args)]
+pub(crate) struct Map {
+    #[command(subcommand)]
+    pub(crate) verb: MapVerb,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum MapVerb {
+    /// Traces a scene's photons and saves them.
+    Build(MapBuild),
+    /// Describes a saved map.
+    Info {
+        /// The map.
+        file: PathBuf,
+    },
+}
+
+#[derive(Args)]
+pub(crate) struct MapBuild {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// The map's file.
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: PathBuf,
+    #[command(flatten)]
+    pub(crate) options: Options,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum MethodName {
+    Auto,
+    Nearest,
+    Radius,
+    Adaptive,
+    FinalGather,
+    Progressive,
+    Bins,
+    Path,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DirectName {
+    Sampled,
+    Photons,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum KernelName {
+    Disc,
+    Cone,
+    Epanechnikov,
+    Biweight,
+    Gaussian,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AreaName {
+    Disc,
+    Sphere,
+    Clipped,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DeviceName {
+    Auto,
+    Cpu,
+    Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UnitsName {
+    Radiometric,
+    Photometric,
+}

@@ -1,0 +1,71 @@
+//! The command that gives the same bits again.
+
+use photonlab_gather::AreaModel;
+use photonlab_readout::{Direct, Method, Outcome, Settings};
+
+use crate::command::{Options, SceneArguments, UnitsName};
+
+/// The command with the method and all counts spelled out, so that no clock and no `auto` decides.
+pub(crate) fn fixed_command<const C: usize>(
+    verb: &str,
+    scene: &SceneArguments,
+    options: &Options,
+    settings: &Settings,
+    outcome: &Outcome<C>,
+) -> String {
+    let mut words = vec!["photonlab".to_string(), verb.into(), quoted(&scene.scene.display().to_string())];
+    let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
+    option("method", settings.method.name().into());
+    match settings.method {
+        Method::Nearest { k } => option("k", k.to_string()),
+        Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
+            option("radius", radius.to_string());
+        }
+        Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path => {}
+    }
+    if settings.direct == Direct::Photons {
+        option("direct", "photons".into());
+    }
+    if settings.area == AreaModel::Sphere {
+        option("area", "sphere".into());
+    }
+    if settings.gather_rays > 1 {
+        option("gather-rays", settings.gather_rays.to_string());
+    }
+    match &options.map {
+        Some(map) => option("map", quoted(&map.display().to_string())),
+        None if settings.method != Method::Path && outcome.photons > 0 => option("photons", outcome.photons.to_string()),
+        None => {}
+    }
+    option("passes", outcome.passes.to_string());
+    option("spp", outcome.samples.to_string());
+    if options.map.is_none() {
+        if let Some(depth) = options.max_depth {
+            option("max-depth", depth.to_string());
+        }
+        if let Some(specular) = options.max_specular {
+            option("max-specular", specular.to_string());
+        }
+    }
+    option("seed", settings.seed.to_string());
+    option("confidence", options.confidence.to_string());
+    if options.units == UnitsName::Photometric {
+        option("units", "photometric".into());
+    }
+    if let Some(sensor) = &options.sensor {
+        option("sensor", quoted(sensor));
+    }
+    if let Some([width, height]) = options.size {
+        option("size", format!("{width}x{height}"));
+    }
+    for (name, value) in &scene.define {
+        words.extend(["-D".into(), quoted(&format!("{name}={value}"))]);
+    }
+    words.join(" ")
+}
+
+/// A word as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c));
+    if plain && !word.is_empty() { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}

@@ -1,0 +1,195 @@
+//! `photonlab measure`: every meter of a scene, with error bars.
+
+use std::{io::Write, time::Instant};
+
+use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
+use photonlab_photometry::{Colour, PathClass};
+use photonlab_readout::{Cell, Method, Outcome, Session, Settings, Source};
+use photonlab_scene::{Needs, Receiver, Scene};
+use photonlab_trace::{Book, Ledger};
+
+use crate::{
+    Failure, by_channels,
+    command::{self, Options},
+    fixed_command::fixed_command,
+    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors},
+    progress::Progress,
+    system,
+};
+
+/// A reading of which more than this share was gathered across an edge is not certified.
+const RESOLVED: f64 = 1e-6;
+
+/// Measures and writes the result to standard output.
+pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {
+    let start = Instant::now();
+    system::start_threads(arguments.options.threads)?;
+    let loaded = Loaded::new(&arguments.scene)?;
+    let file = &arguments.scene.scene;
+    if arguments.options.size.is_some() {
+        return Err(Failure::usage("--size is for images; a meter's cells are its film's"));
+    }
+    loaded.needs_light(file)?;
+    let is_meter = |receiver: &Receiver| matches!(receiver, Receiver::Meter(_));
+    let chosen = sensors(&loaded.world.scene, file, arguments.options.sensor.as_deref(), "meter", is_meter)?;
+    loaded.meters_are_readable(file, &chosen)?;
+    let cells: Vec<Cell> = chosen.iter().flat_map(|&index| Cell::of_sensor(&loaded.world.scene, index)).collect();
+    let measurement = by_channels!(loaded.needs.channels, run(arguments, &loaded, &cells, start))?;
+    let text = if arguments.json { measurement.to_json()? } else { table(&measurement, arguments.options.confidence) };
+    std::io::stdout().write_all(text.as_bytes())?;
+    Ok(())
+}
+
+fn run<const C: usize>(
+    arguments: &command::Measure,
+    loaded: &Loaded,
+    cells: &[Cell],
+    start: Instant,
+) -> Result<Measurement, Failure> {
+    let options = &arguments.options;
+    let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
+    let mut settings = options.settings(&loaded.world.scene)?;
+    let map = open_map::<C>(options, loaded, &mut settings)?;
+    let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: false };
+    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let source = map.as_ref().map_or(Source::Trace, Source::Map);
+    let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
+    warn_of_trapped_light(outcome.ledger.as_ref());
+    Ok(Measurement {
+        scene: arguments.scene.scene.display().to_string(),
+        method: settings.method.name().into(),
+        command: Some(fixed_command("measure", &arguments.scene, options, &settings, &outcome)),
+        seed: settings.seed,
+        threads: system::threads(),
+        photons: outcome.photons,
+        seconds: start.elapsed().as_secs_f64(),
+        peak_bytes: system::peak_bytes(),
+        stopped: outcome.stopped,
+        channels: channel_names(outcome.channels),
+        needs: loaded.needs.list.iter().map(|n| Need { need: n.need.clone(), reason: n.reason.clone() }).collect(),
+        ledger: flux_ledger(outcome.ledger.as_ref()),
+        readings: readings(&loaded.world.scene, cells, &outcome, options, &settings, &loaded.needs)?,
+    })
+}
+
+/// Says that light was given up because nothing absorbs it.
+pub(crate) fn warn_of_trapped_light<const C: usize>(ledger: Option<&Ledger<C>>) {
+    if let Some(ledger) = ledger.filter(|ledger| ledger.trapped_paths > 0) {
+        let share = 100.0 * ledger.total().cut_off.max() / ledger.emitted.max();
+        eprintln!(
+            "warning: {} light paths did not leave lossless specular surfaces and are booked under cut_off with all others \
+             that were ended early ({share:.3} % of the emitted flux)",
+            ledger.trapped_paths
+        );
+    }
+}
+
+fn readings<const C: usize>(
+    scene: &Scene,
+    cells: &[Cell],
+    outcome: &Outcome<C>,
+    options: &Options,
+    settings: &Settings,
+    needs: &Needs,
+) -> Result<Vec<Reading>, Failure> {
+    let passes = outcome.passes;
+    let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
+    let doubt = doubt(scene, settings, needs);
+    let mut readings = Vec::new();
+    for (cell, result) in cells.iter().zip(&outcome.cells) {
+        for channel in 0..C {
+            let place = Place {
+                sensor: scene.sensors[cell.sensor].id.clone(),
+                quantity: cell.quantity().in_system(options.unit_system()),
+                cell: cell.cell,
+                channel: outcome.channels.names()[channel].into(),
+            };
+            if result.found_nothing() {
+                let why = "no light was found: no photon and no lamp sample reached it, which does not show that it is dark";
+                readings.push(Reading::nothing(place, why).with_support(result.photons, outcome.radius)?);
+                continue;
+            }
+            let value = result.value[channel].mean().unwrap_or(0.0);
+            let bias_bound = result.bias_bound(channel, options.confidence);
+            let error = result.value[channel].std_error();
+            let mut reading = Reading::new(place, value, error, t, Some(bias_bound))?.with_support(result.photons, outcome.radius)?;
+            let unresolved = result.unresolved_share(channel);
+            if unresolved > RESOLVED {
+                reading = reading.not_certified(&format!(
+                    "{:.2} % of the value was gathered with a ball that reaches over an edge or onto another surface, where \
+                     the bias has no bound",
+                    100.0 * unresolved
+                ));
+            }
+            if let Some(doubt) = &doubt {
+                reading = reading.not_certified(doubt);
+            }
+            readings.push(reading);
+        }
+    }
+    Ok(readings)
+}
+
+/// Why no reading of this method can be certified in this scene, if so.
+pub(crate) fn doubt(scene: &Scene, settings: &Settings, needs: &Needs) -> Option<String> {
+    if settings.method == Method::Path && needs.caustic && !scene.emitters.is_empty() {
+        return Some(
+            "path tracing cannot find light that comes from a point or directional lamp through specular surfaces alone".into(),
+        );
+    }
+    if settings.area == photonlab_gather::AreaModel::Sphere {
+        return Some("the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into());
+    }
+    None
+}
+
+fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>) -> FluxLedger {
+    let Some(ledger) = ledger else {
+        let none = vec![0.0; C];
+        let total = FluxBook {
+            emitted: none.clone(),
+            absorbed: none.clone(),
+            escaped: none.clone(),
+            cut_off: none.clone(),
+            roulette: none,
+        };
+        return FluxLedger { total, ..FluxLedger::default() };
+    };
+    let book = |emitted: Colour<C>, book: &Book<C>| FluxBook {
+        emitted: emitted.0.to_vec(),
+        absorbed: book.absorbed.0.to_vec(),
+        escaped: book.escaped.0.to_vec(),
+        cut_off: book.cut_off.0.to_vec(),
+        roulette: book.roulette().0.to_vec(),
+    };
+    let class = |class: PathClass| {
+        let of_class = &ledger.classes[class as usize];
+        (class.name().to_string(), book(of_class.accounted(), of_class))
+    };
+    FluxLedger { total: book(ledger.emitted, &ledger.total()), classes: PathClass::ALL.into_iter().map(class).collect() }
+}
+
+/// Readings for people: one line each, the half-width beside the value.
+fn table(measurement: &Measurement, confidence: f64) -> String {
+    use std::fmt::Write;
+    let mut text = format!(
+        "{}: {} with {} photons, {:.2} s; intervals at {} %\n",
+        measurement.scene,
+        measurement.method,
+        measurement.photons,
+        measurement.seconds,
+        100.0 * confidence
+    );
+    for r in &measurement.readings {
+        let name = format!("{} [{}, {}] {}", r.sensor, r.cell[0], r.cell[1], r.channel);
+        let value = match (r.value, r.half_width()) {
+            (Some(value), Some(half)) => format!("{value:>14.6} ± {half:<12.6} {}", r.unit),
+            (Some(value), None) => format!("{value:>14.6} ± unknown      {}", r.unit),
+            (None, _) => "       nothing found".to_string(),
+        };
+        let why = r.why.as_ref().map_or(String::new(), |why| format!("  (not certified: {why})"));
+        let _ = writeln!(text, "{name:<32} {value}{why}");
+    }
+    text
+}

@@ -1,0 +1,105 @@
+//! `photonlab render`: an image with its error layers.
+
+use photonlab_measure::student_t_quantile;
+use photonlab_readout::{Cell, Outcome, Session, Source};
+use photonlab_scene::{Film, Receiver};
+
+use crate::{
+    Failure, by_channels, command,
+    fixed_command::fixed_command,
+    image::{Image, Layers},
+    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors},
+    measure::{doubt, warn_of_trapped_light},
+    progress::Progress,
+    system,
+};
+
+/// Renders and writes the image.
+pub(crate) fn render(arguments: &command::Render) -> Result<(), Failure> {
+    system::start_threads(arguments.options.threads)?;
+    let extension = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
+    if !matches!(extension.as_str(), "exr" | "png") {
+        return Err(Failure::usage(format!("-o {}: the image's name must end in .exr or .png", arguments.output.display())));
+    }
+    if arguments.false_colour && extension != "png" {
+        return Err(Failure::usage("--false-colour makes an image for looking at; give -o a name that ends in .png"));
+    }
+    crate::image::is_writable(&arguments.output)?;
+    let mut loaded = Loaded::new(&arguments.scene)?;
+    let file = &arguments.scene.scene;
+    loaded.needs_light(file)?;
+    let is_camera = |receiver: &Receiver| matches!(receiver, Receiver::Camera(_));
+    let chosen = sensors(&loaded.world.scene, file, arguments.options.sensor.as_deref(), "camera", is_camera)?[0];
+    if let Some(size) = arguments.options.size {
+        resize(&mut loaded, chosen, size);
+    }
+    let layers = by_channels!(loaded.needs.channels, run(arguments, &loaded, chosen))?;
+    let bytes = match extension.as_str() {
+        "exr" => layers.to_exr()?,
+        _ if arguments.false_colour => layers.to_false_colour_png()?,
+        _ => layers.to_png()?,
+    };
+    crate::interrupt::write_whole(&arguments.output, &bytes)?;
+    Ok(())
+}
+
+/// Gives a camera another film; the field of view along the width stays.
+fn resize(loaded: &mut Loaded, sensor: usize, [width, height]: [u32; 2]) {
+    let sensor = &mut loaded.world.scene.sensors[sensor];
+    sensor.film = Film { width, height };
+    if let Receiver::Camera(camera) = &mut sensor.receiver {
+        camera.tan_half_height = camera.tan_half_width * f64::from(height) / f64::from(width);
+    }
+}
+
+fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usize) -> Result<Layers, Failure> {
+    let options = &arguments.options;
+    let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
+    let mut settings = options.settings(&loaded.world.scene)?;
+    let map = open_map::<C>(options, loaded, &mut settings)?;
+    let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
+    let cells = Cell::of_sensor(&world.scene, sensor);
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: true };
+    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let source = map.as_ref().map_or(Source::Trace, Source::Map);
+    let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
+    warn_of_trapped_light(outcome.ledger.as_ref());
+    if let Some(doubt) = doubt(&world.scene, &settings, needs) {
+        eprintln!("warning: this image is not certified: {doubt}");
+    }
+    let unit = cells[0].quantity().in_system(options.unit_system()).unit();
+    let film = world.scene.sensors[sensor].film;
+    let attributes = vec![
+        ("scene".to_string(), arguments.scene.scene.display().to_string()),
+        ("command".to_string(), fixed_command("render", &arguments.scene, options, &settings, &outcome)),
+        ("seed".to_string(), settings.seed.to_string()),
+        ("units".to_string(), unit.symbol().to_string()),
+        ("confidence".to_string(), confidence.to_string()),
+    ];
+    Ok(layers(&outcome, film, confidence, unit.symbol(), attributes))
+}
+
+fn layers<const C: usize>(
+    outcome: &Outcome<C>,
+    film: Film,
+    confidence: f64,
+    unit: &str,
+    attributes: Vec<(String, String)>,
+) -> Layers {
+    let quantile = (outcome.passes > 1).then(|| student_t_quantile(confidence, (outcome.passes - 1) as f64));
+    let image = |of: &dyn Fn(usize, usize) -> f64| {
+        let pixel = |cell: usize| std::array::from_fn(|c| of(cell, if C == 1 { 0 } else { c }) as f32);
+        Image { width: film.width as usize, height: film.height as usize, pixels: (0..outcome.cells.len()).map(pixel).collect() }
+    };
+    Layers {
+        value: image(&|cell, c| outcome.cells[cell].value[c].mean().unwrap_or(0.0)),
+        std_error: image(&|cell, c| outcome.cells[cell].value[c].std_error().unwrap_or(f64::NAN)),
+        bias_bound: image(&|cell, c| match quantile {
+            Some(_) => outcome.cells[cell].bias_bound(c, confidence),
+            None => f64::NAN,
+        }),
+        photons_used: outcome.cells.iter().map(|cell| cell.photons as f32).collect(),
+        unit: unit.into(),
+        attributes,
+    }
+}

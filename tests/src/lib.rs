@@ -1,0 +1,1 @@
+//! Statistical tests, whole-program tests and the mutant runner.
