@@ -3,12 +3,19 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use photonlab_measure::Budget;
 
 use crate::number;
 
 /// Photon-map illuminance with error bars that hold.
 #[derive(Parser)]
-#[command(name = "photonlab", version, about, subcommand_required = true, arg_required_else_help = true)]
+#[command(
+    name = "photonlab",
+    version,
+    about,
+    subcommand_required = true,
+    arg_required_else_help = true
+)]
 pub(crate) struct Photonlab {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -16,6 +23,8 @@ pub(crate) struct Photonlab {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
+    /// The main job: the paper's claims to records, figures and a report.
+    Reproduce(Reproduce),
     /// Every meter of a scene, with error bars.
     Measure(Measure),
     /// An image with its error layers.
@@ -109,6 +118,25 @@ pub(crate) struct Options {
     /// Units of results.
     #[arg(long, value_enum, default_value = "radiometric")]
     pub(crate) units: UnitsName,
+}
+
+#[derive(Args)]
+pub(crate) struct Reproduce {
+    /// Claims by name; none means all.
+    #[arg(value_name = "CLAIM")]
+    pub(crate) claims: Vec<String>,
+    /// How long it may take: three minutes, two hours, twelve hours.
+    #[arg(long, value_enum, default_value = "quick")]
+    pub(crate) budget: BudgetName,
+    /// Where records, figures and the report go [default: target/reproduce/BUDGET].
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    /// Where to compute.
+    #[arg(long, value_enum, default_value = "auto")]
+    pub(crate) device: DeviceName,
+    /// Threads [default: all cores]. No result depends on it.
+    #[arg(long, value_name = "T", value_parser = number::small_count)]
+    pub(crate) threads: Option<u32>,
 }
 
 #[derive(Args)]
@@ -212,6 +240,23 @@ pub(crate) enum DeviceName {
     Auto,
     Cpu,
     Gpu,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BudgetName {
+    Quick,
+    Paper,
+    Archive,
+}
+
+impl BudgetName {
+    pub(crate) fn budget(self) -> Budget {
+        match self {
+            BudgetName::Quick => Budget::Quick,
+            BudgetName::Paper => Budget::Paper,
+            BudgetName::Archive => Budget::Archive,
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -17,6 +17,7 @@ mod number;
 mod plan;
 mod progress;
 mod render;
+mod reproduce;
 mod system;
 
 use std::{ffi::OsString, process::ExitCode};
@@ -39,6 +40,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     interrupt::install();
     let result = match parsed.command {
         Command::Measure(arguments) => measure::measure(&arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Render(arguments) => render::render(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
         Command::Map(arguments) => map::map(&arguments),

@@ -1,11 +1,16 @@
 //! A scene loaded and made ready, and everything that is said of it on the way.
 
 use photonlab_photometry::Channels;
-use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
+use photonlab_readout::{
+    MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity,
+};
 use photonlab_sampling::Lamps;
 use photonlab_scene::{Bsdf, Meter, Needs, Receiver, Scene, World, read::read_scene};
 
-use crate::{Failure, command::{Options, SceneArguments}};
+use crate::{
+    Failure,
+    command::{Options, SceneArguments},
+};
 
 /// A scene ready to be read.
 pub(crate) struct Loaded {
@@ -17,11 +22,16 @@ pub(crate) struct Loaded {
 impl Loaded {
     /// Reads a scene file; what it supersedes is said on standard error.
     pub(crate) fn new(arguments: &SceneArguments) -> Result<Self, Failure> {
-        let scene = read_scene(&arguments.scene, &arguments.define).map_err(|e| Failure::usage(e.to_string()))?;
+        let scene = read_scene(&arguments.scene, &arguments.define)
+            .map_err(|e| Failure::usage(e.to_string()))?;
         for note in &scene.notes {
             eprintln!("{}: note: {note}", arguments.scene.display());
         }
-        Ok(Self { needs: Needs::of(&scene), identity: scene_identity(&scene), world: World::new(scene) })
+        Ok(Self {
+            needs: Needs::of(&scene),
+            identity: scene_identity(&scene),
+            world: World::new(scene),
+        })
     }
 
     /// Refuses a scene without light.
@@ -29,15 +39,24 @@ impl Loaded {
         if self.world.scene.has_light() {
             return Ok(());
         }
-        Err(Failure::usage(format!("{}:1: scene: no lamp; add an <emitter>", file.display())))
+        Err(Failure::usage(format!(
+            "{}:1: scene: no lamp; add an <emitter>",
+            file.display()
+        )))
     }
 
     /// Refuses a meter that no photon can be recorded on.
-    pub(crate) fn meters_are_readable(&self, file: &std::path::Path, sensors: &[usize]) -> Result<(), Failure> {
+    pub(crate) fn meters_are_readable(
+        &self,
+        file: &std::path::Path,
+        sensors: &[usize],
+    ) -> Result<(), Failure> {
         let scene = &self.world.scene;
         for &index in sensors {
             let sensor = &scene.sensors[index];
-            let Receiver::Meter(Meter::Irradiancemeter { shape }) = sensor.receiver else { continue };
+            let Receiver::Meter(Meter::Irradiancemeter { shape }) = sensor.receiver else {
+                continue;
+            };
             if is_specular_in_front(&scene.shapes[shape].bsdf) {
                 return Err(Failure::usage(format!(
                     "{}:1: sensor `{}`: irradiance on the specular shape `{}` is not built yet; put the meter on a diffuse \
@@ -66,20 +85,27 @@ pub(crate) fn open_map<const C: usize>(
     loaded: &Loaded,
     settings: &mut Settings,
 ) -> Result<Option<MapFile<C>>, Failure> {
-    let Some(path) = &options.map else { return Ok(None) };
+    let Some(path) = &options.map else {
+        return Ok(None);
+    };
     for (option, given) in [
         ("photons", options.photons.is_some()),
         ("max-depth", options.max_depth.is_some()),
         ("max-specular", options.max_specular.is_some()),
     ] {
         if given {
-            return Err(Failure::usage(format!("--{option} was decided when the map was built; leave it out beside --map")));
+            return Err(Failure::usage(format!(
+                "--{option} was decided when the map was built; leave it out beside --map"
+            )));
         }
     }
     let wrong = |what: String| Failure::usage(format!("{}: {what}", path.display()));
     let header = MapHeader::read(path).map_err(|e| Failure::usage(e.to_string()))?;
     if header.identity != loaded.identity {
-        return Err(wrong("this map is of another scene; build it again from this one with `photonlab map build`".into()));
+        return Err(wrong(
+            "this map is of another scene; build it again from this one with `photonlab map build`"
+                .into(),
+        ));
     }
     if !header.classes.contains(settings.classes()) {
         return Err(wrong(format!(
@@ -88,12 +114,18 @@ pub(crate) fn open_map<const C: usize>(
         )));
     }
     settings.limits = header.limits;
-    Ok(Some(MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?))
+    Ok(Some(
+        MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?,
+    ))
 }
 
 /// The schedule of a session, with its default count named on standard error.
-pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
-    let schedule = Schedule::new(wanted, cells, session.settings.gather_rays, session.fewest_photons());
+pub(crate) fn schedule<const C: usize>(
+    session: &Session<'_, C>,
+    wanted: &Wanted,
+    cells: usize,
+) -> Schedule {
+    let schedule = Schedule::new(wanted, cells, &session.demands());
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()
         && wanted.samples.is_none()
@@ -102,16 +134,24 @@ pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted
     if let (true, Some(passes)) = (nothing_given, schedule.ends.passes) {
         let photons: u64 = (0..passes).map(|p| schedule.photons(p)).sum();
         let samples: u64 = (0..passes).map(|p| schedule.samples(p)).sum();
-        eprintln!("note: {passes} passes, {photons} photons and {samples} points per cell in all by default; ask for more with --target-error, --time-limit or counts");
+        eprintln!(
+            "note: {passes} passes, {photons} photons and {samples} points per cell in all by default; ask for more with --target-error, --time-limit or counts"
+        );
     }
     schedule
 }
 
 /// The lamps of a world in its channels; refuses what emits nothing.
-pub(crate) fn lamps<const C: usize>(loaded: &Loaded, file: &std::path::Path) -> Result<Lamps<C>, Failure> {
+pub(crate) fn lamps<const C: usize>(
+    loaded: &Loaded,
+    file: &std::path::Path,
+) -> Result<Lamps<C>, Failure> {
     let lamps = Lamps::new(&loaded.world);
     if lamps.lamps.is_empty() {
-        return Err(Failure::usage(format!("{}:1: scene: every lamp is black; give one a radiance above 0", file.display())));
+        return Err(Failure::usage(format!(
+            "{}:1: scene: every lamp is black; give one a radiance above 0",
+            file.display()
+        )));
     }
     Ok(lamps)
 }
@@ -132,16 +172,27 @@ pub(crate) fn sensors(
     kind: &str,
     is_kind: impl Fn(&Receiver) -> bool,
 ) -> Result<Vec<usize>, Failure> {
-    let of_kind: Vec<usize> = (0..scene.sensors.len()).filter(|&i| is_kind(&scene.sensors[i].receiver)).collect();
+    let of_kind: Vec<usize> = (0..scene.sensors.len())
+        .filter(|&i| is_kind(&scene.sensors[i].receiver))
+        .collect();
     if of_kind.is_empty() {
-        return Err(Failure::usage(format!("{}:1: scene: no {kind}; add a <sensor>", file.display())));
+        return Err(Failure::usage(format!(
+            "{}:1: scene: no {kind}; add a <sensor>",
+            file.display()
+        )));
     }
     let Some(id) = wanted else { return Ok(of_kind) };
     match of_kind.iter().find(|&&i| scene.sensors[i].id == id) {
         Some(&index) => Ok(vec![index]),
         None => {
-            let ids: Vec<_> = of_kind.iter().map(|&i| format!("`{}`", scene.sensors[i].id)).collect();
-            Err(Failure::usage(format!("--sensor {id}: the scene has no such {kind}; it has {}", ids.join(", "))))
+            let ids: Vec<_> = of_kind
+                .iter()
+                .map(|&i| format!("`{}`", scene.sensors[i].id))
+                .collect();
+            Err(Failure::usage(format!(
+                "--sensor {id}: the scene has no such {kind}; it has {}",
+                ids.join(", ")
+            )))
         }
     }
 }
@@ -160,5 +211,9 @@ macro_rules! by_channels {
 
 /// The number of channels, for messages.
 pub(crate) fn channel_names(channels: Channels) -> Vec<String> {
-    channels.names().iter().map(|name| name.to_string()).collect()
+    channels
+        .names()
+        .iter()
+        .map(|name| name.to_string())
+        .collect()
 }

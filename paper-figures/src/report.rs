@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use minijinja::{AutoEscape, Environment, Value};
+use minijinja::syntax::SyntaxConfig;
+use minijinja::value::Serde;
+use minijinja::{AutoEscape, Environment};
 use photonlab_measure::{Comparison, FigureData, ImageEntry, Record, Verdict};
 use serde::Serialize;
 
@@ -30,7 +32,10 @@ impl<'a> ReportEntry<'a> {
                 Err(source) => Err(ReportError::Read { path, source }),
             }
         };
-        Ok(ReportEntry { record, images: record.images.iter().map(read).collect::<Result<_, _>>()? })
+        Ok(ReportEntry {
+            record,
+            images: record.images.iter().map(read).collect::<Result<_, _>>()?,
+        })
     }
 }
 
@@ -39,17 +44,37 @@ impl<'a> ReportEntry<'a> {
 pub fn report(entries: &[ReportEntry<'_>]) -> Result<String, ReportError> {
     let mut seen = BTreeSet::new();
     if let Some(twice) = entries.iter().find(|e| !seen.insert(&e.record.claim)) {
-        return Err(ReportError::Twice { claim: twice.record.claim.clone() });
+        return Err(ReportError::Twice {
+            claim: twice.record.claim.clone(),
+        });
     }
-    let claims = entries.iter().map(Claim::new).collect::<Result<Vec<_>, _>>()?;
+    let claims = entries
+        .iter()
+        .map(Claim::new)
+        .collect::<Result<Vec<_>, _>>()?;
     let tally = Verdict::ALL.iter().filter_map(|&verdict| {
-        let count = entries.iter().filter(|e| e.record.verdict == verdict).count();
-        (count > 0).then(|| Tally { verdict: Badge::of(verdict), count })
+        let count = entries
+            .iter()
+            .filter(|e| e.record.verdict == verdict)
+            .count();
+        (count > 0).then(|| Tally {
+            verdict: Badge::of(verdict),
+            count,
+        })
     });
-    let page = Page { tally: tally.collect(), claims };
+    let page = Page {
+        tally: tally.collect(),
+        claims,
+    };
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
-    Ok(environment.render_str(include_str!("report.html"), Value::from_serialize(page))?)
+    environment.set_syntax(
+        SyntaxConfig::builder()
+            .trim_blocks(true)
+            .lstrip_blocks(true)
+            .build()?,
+    );
+    Ok(environment.render_str(include_str!("report.html"), Serde(page))?)
 }
 
 #[derive(Serialize)]
@@ -82,7 +107,11 @@ impl Badge {
             Verdict::NotCertifiable => ("?", "open"),
             Verdict::NotMeasured => ("–", "open"),
         };
-        Badge { words: verdict.words(), sign, class }
+        Badge {
+            words: verdict.words(),
+            sign,
+            class,
+        }
     }
 }
 
@@ -105,7 +134,11 @@ struct Claim<'a> {
 impl<'a> Claim<'a> {
     fn new(entry: &ReportEntry<'a>) -> Result<Self, ReportError> {
         let record = entry.record;
-        let anchor: String = record.claim.chars().map(|c| if c.is_whitespace() { '-' } else { c }).collect();
+        let anchor: String = record
+            .claim
+            .chars()
+            .map(|c| if c.is_whitespace() { '-' } else { c })
+            .collect();
         let drawn = |figure| Drawing::new(figure, &anchor);
         let figures = record.figures.iter().map(drawn).collect::<Result<_, _>>();
         Ok(Claim {
@@ -116,8 +149,15 @@ impl<'a> Claim<'a> {
             verdict: Badge::of(record.verdict),
             agreement: agreement(&record.comparisons),
             comparisons: record.comparisons.iter().map(Line::new).collect(),
-            figures: figures.map_err(|source| ReportError::Figure { claim: record.claim.clone(), source })?,
-            images: record.images.iter().map(|i| Picture::new(i, entry)).collect::<Result<_, _>>()?,
+            figures: figures.map_err(|source| ReportError::Figure {
+                claim: record.claim.clone(),
+                source,
+            })?,
+            images: record
+                .images
+                .iter()
+                .map(|i| Picture::new(i, entry))
+                .collect::<Result<_, _>>()?,
             anchor,
             record,
         })
@@ -128,7 +168,7 @@ impl<'a> Claim<'a> {
 #[derive(Serialize)]
 struct Line<'a> {
     label: &'a str,
-    unit: &'a str,
+    unit: String,
     expected: String,
     source: &'a str,
     measured: Option<String>,
@@ -148,11 +188,17 @@ impl<'a> Line<'a> {
         };
         Line {
             label: &comparison.label,
-            unit: if comparison.unit == "1" { "" } else { &comparison.unit },
+            unit: if comparison.unit == "1" {
+                String::new()
+            } else {
+                comparison.unit.replace("^2", "²")
+            },
             expected: interval_text(expected.value, expected.low, expected.high),
             source: &expected.source,
             measured: measured.map(|m| interval_text(m.value, m.low, m.high)),
-            confidence: measured.map_or(String::new(), |m| format!("{} %", plain_text(m.confidence * 100.0))),
+            confidence: measured.map_or(String::new(), |m| {
+                format!("{} %", plain_text(m.confidence * 100.0))
+            }),
             agrees,
             class,
             note: comparison.note.as_deref(),
@@ -172,8 +218,16 @@ impl Drawing {
     fn new(figure: &FigureData, claim: &str) -> Result<Self, FigureError> {
         // Inside HTML the name space goes without saying.
         let svg = draw(figure)?.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
-        let id: String = figure.id.chars().map(|c| if c.is_whitespace() { '-' } else { c }).collect();
-        Ok(Drawing { anchor: format!("{claim}--{id}"), svg, caption: caption(figure) })
+        let id: String = figure
+            .id
+            .chars()
+            .map(|c| if c.is_whitespace() { '-' } else { c })
+            .collect();
+        Ok(Drawing {
+            anchor: format!("{claim}--{id}"),
+            svg,
+            caption: caption(figure),
+        })
     }
 }
 
@@ -188,11 +242,17 @@ impl<'a> Picture<'a> {
     fn new(entry: &'a ImageEntry, from: &ReportEntry<'a>) -> Result<Self, ReportError> {
         let (claim, path) = (|| from.record.claim.clone(), || entry.path.clone());
         let Some(bytes) = from.images.get(&entry.path) else {
-            return Err(ReportError::MissingImage { claim: claim(), path: path() });
+            return Err(ReportError::MissingImage {
+                claim: claim(),
+                path: path(),
+            });
         };
         match data_uri(bytes) {
             Some(uri) => Ok(Picture { entry, uri }),
-            None => Err(ReportError::UnknownImage { claim: claim(), path: path() }),
+            None => Err(ReportError::UnknownImage {
+                claim: claim(),
+                path: path(),
+            }),
         }
     }
 }
@@ -209,13 +269,28 @@ fn agreement(comparisons: &[Comparison]) -> String {
 
 /// A run of seeds by its ends, a few one by one.
 fn seeds_text(seeds: &[u64]) -> String {
-    let list = |seeds: &[u64]| seeds.iter().map(u64::to_string).collect::<Vec<_>>().join(", ");
+    let list = |seeds: &[u64]| {
+        seeds
+            .iter()
+            .map(u64::to_string)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     match seeds {
         [] => "none".to_owned(),
-        [first, .., last] if seeds.len() > 2 && seeds.windows(2).all(|pair| pair[0].checked_add(1) == Some(pair[1])) => {
+        [first, .., last]
+            if seeds.len() > 2
+                && seeds
+                    .windows(2)
+                    .all(|pair| pair[0].checked_add(1) == Some(pair[1])) =>
+        {
             format!("{first} to {last}")
         }
         _ if seeds.len() <= 12 => list(seeds),
-        _ => format!("{}, … ({} in all; the record lists them)", list(&seeds[..6]), seeds.len()),
+        _ => format!(
+            "{}, … ({} in all; the record lists them)",
+            list(&seeds[..6]),
+            seeds.len()
+        ),
     }
 }

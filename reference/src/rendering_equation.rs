@@ -34,10 +34,23 @@ impl DiffuseTransmitter {
     /// A sheet with these shares of the incident flux, both at least 0 and together at most 1.
     pub fn new(reflectance: f64, transmittance: f64) -> Result<Self, OutOfRange> {
         require(reflectance >= 0.0, "reflectance", reflectance, "at least 0")?;
-        require(transmittance >= 0.0, "transmittance", transmittance, "at least 0")?;
+        require(
+            transmittance >= 0.0,
+            "transmittance",
+            transmittance,
+            "at least 0",
+        )?;
         let sum = reflectance + transmittance;
-        require(sum <= 1.0, "reflectance plus transmittance", sum, "at most 1")?;
-        Ok(DiffuseTransmitter { reflectance, transmittance })
+        require(
+            sum <= 1.0,
+            "reflectance plus transmittance",
+            sum,
+            "at most 1",
+        )?;
+        Ok(DiffuseTransmitter {
+            reflectance,
+            transmittance,
+        })
     }
 
     /// The true radiance of the front side, in W/(m^2 sr) or cd/m^2, for irradiance on front and back in W/m^2 or lx.
@@ -77,7 +90,11 @@ mod tests {
             EquationReading::SignedCosine,
         ] {
             let eq1 = |z: f64| {
-                let factor = if z > 0.0 { sheet.reflectance } else { sheet.transmittance };
+                let factor = if z > 0.0 {
+                    sheet.reflectance
+                } else {
+                    sheet.transmittance
+                };
                 let (bsdf, cosine) = match reading {
                     EquationReading::LuminanceFactor => (factor, z.abs()),
                     EquationReading::PerSteradian => (factor / PI, z.abs()),
@@ -87,7 +104,10 @@ mod tests {
             };
             let integral = rule.integrate(-1.0, 0.0, eq1) + rule.integrate(0.0, 1.0, eq1);
             let got = sheet.read(reading, front, back);
-            assert!((got - integral).abs() < 1e-12, "{reading:?}: {got} {integral}");
+            assert!(
+                (got - integral).abs() < 1e-12,
+                "{reading:?}: {got} {integral}"
+            );
         }
     }
 

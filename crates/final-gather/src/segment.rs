@@ -58,7 +58,12 @@ pub fn follow<const C: usize>(
     start: Start,
     stream: &mut Stream,
 ) -> Landing<C> {
-    let Start { mut ray, mut from, mut reach, used } = start;
+    let Start {
+        mut ray,
+        mut from,
+        mut reach,
+        used,
+    } = start;
     let mut weight = Colour::ONE;
     let mut landing = Landing {
         emitted: Colour::ZERO,
@@ -72,7 +77,9 @@ pub fn follow<const C: usize>(
         if !limits.allows(landing.segments + 1) {
             break;
         }
-        let Some(hit) = world.cast(&ray, from, reach) else { break };
+        let Some(hit) = world.cast(&ray, from, reach) else {
+            break;
+        };
         landing.segments += 1;
         landing.distance += hit.distance;
         let emitted = lamps.emitted(hit.point.primitive, hit.front);

@@ -22,5 +22,5 @@ pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};
 pub use method::{Direct, Method, Settings};
 pub use outcome::{CellResult, Outcome};
-pub use schedule::{Ends, Schedule, Wanted};
+pub use schedule::{Demands, Ends, Schedule, Wanted};
 pub use session::{Observer, ReadError, Session, Source};

@@ -10,8 +10,8 @@ const PHOTONS_PER_PASS: u64 = 1 << 16;
 const LARGEST_PASS: u64 = 1 << 21;
 /// Gather rays or paths per pass, shared by all cells, unless asked otherwise.
 const RAYS_PER_PASS: u64 = 1 << 17;
-/// Points per cell and pass, at least and at most, unless asked otherwise.
-const SAMPLES_PER_CELL: (u64, u64) = (4, 1 << 13);
+/// Points per cell and pass unless asked otherwise, at least.
+const FEWEST_SAMPLES: u64 = 4;
 
 /// What the caller asks for; `None` leaves it to the defaults.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +26,17 @@ pub struct Wanted {
     pub target_error: Option<f64>,
     /// Wall time.
     pub time_limit: Option<Duration>,
+}
+
+/// What a session asks of its schedule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Demands {
+    /// Rays per point.
+    pub gather_rays: u32,
+    /// Photons that a pass cannot do without; zero if the method needs none in this scene.
+    pub fewest_photons: u64,
+    /// Points per cell and pass beyond which a reading gains nothing.
+    pub most_samples: u64,
 }
 
 /// When a run ends.
@@ -62,7 +73,8 @@ impl Share {
         match self {
             Share::Each(count) => count,
             Share::Total { total, passes } => {
-                let up_to = |p: u64| (u128::from(total) * u128::from(p) / u128::from(passes)) as u64;
+                let up_to =
+                    |p: u64| (u128::from(total) * u128::from(p) / u128::from(passes)) as u64;
                 up_to(pass + 1) - up_to(pass)
             }
         }
@@ -70,22 +82,30 @@ impl Share {
 }
 
 impl Schedule {
-    /// Resolves what was asked for. `lamps` is the smallest number of photons a pass can have, zero if the method needs
-    /// none.
-    pub fn new(wanted: &Wanted, cells: usize, gather_rays: u32, lamps: usize) -> Self {
-        let uses_photons = lamps > 0;
+    /// Resolves what was asked for.
+    pub fn new(wanted: &Wanted, cells: usize, demands: &Demands) -> Self {
+        let uses_photons = demands.fewest_photons > 0;
         let photons = wanted.photons.filter(|_| uses_photons);
         let counted = photons.is_some() || wanted.samples.is_some() || wanted.passes.is_some();
         let open = wanted.target_error.is_some() || wanted.time_limit.is_some();
-        let rays_per_cell = RAYS_PER_PASS / (cells.max(1) as u64 * u64::from(gather_rays));
-        let samples_per_cell = rays_per_cell.clamp(SAMPLES_PER_CELL.0, SAMPLES_PER_CELL.1);
+        let rays_per_cell = RAYS_PER_PASS / (cells.max(1) as u64 * u64::from(demands.gather_rays));
+        let samples_per_cell = rays_per_cell.clamp(
+            FEWEST_SAMPLES.min(demands.most_samples),
+            demands.most_samples,
+        );
         let passes = (counted || !open).then(|| {
             let asked = wanted.passes.unwrap_or_else(|| {
                 // Where the error or the clock may end the run early, passes stay short.
                 let largest = if open { PHOTONS_PER_PASS } else { LARGEST_PASS };
                 let for_photons = photons.map_or(0, |n| n.div_ceil(largest));
-                let for_samples = wanted.samples.filter(|_| open).map_or(0, |n| n.div_ceil(samples_per_cell));
-                PASSES.max(for_photons).max(for_samples).min(photons.map_or(u64::MAX, |n| n / (lamps as u64).max(1)))
+                let for_samples = wanted
+                    .samples
+                    .filter(|_| open)
+                    .map_or(0, |n| n.div_ceil(samples_per_cell));
+                PASSES
+                    .max(for_photons)
+                    .max(for_samples)
+                    .min(photons.map_or(u64::MAX, |n| n / demands.fewest_photons.max(1)))
             });
             asked.min(wanted.samples.unwrap_or(u64::MAX)).max(1)
         });
@@ -94,14 +114,18 @@ impl Schedule {
             _ => Share::Each(each),
         };
         Self {
-            ends: Ends { passes, target_error: wanted.target_error, time_limit: wanted.time_limit },
+            ends: Ends {
+                passes,
+                target_error: wanted.target_error,
+                time_limit: wanted.time_limit,
+            },
             photons: if uses_photons {
-                share(photons, PHOTONS_PER_PASS.max(lamps as u64))
+                share(photons, PHOTONS_PER_PASS.max(demands.fewest_photons))
             } else {
                 Share::Each(0)
             },
             samples: share(wanted.samples, samples_per_cell),
-            fewest_photons: lamps as u64,
+            fewest_photons: demands.fewest_photons,
         }
     }
 
@@ -121,7 +145,11 @@ impl Schedule {
             Share::Each(count) if count > 0 => Share::Each((count / by).max(fewest)),
             other => other,
         };
-        Self { photons: smaller(self.photons, self.fewest_photons), samples: smaller(self.samples, 1), ..*self }
+        Self {
+            photons: smaller(self.photons, self.fewest_photons),
+            samples: smaller(self.samples, 1),
+            ..*self
+        }
     }
 }
 
@@ -129,22 +157,45 @@ impl Schedule {
 mod tests {
     use super::*;
 
+    const DEMANDS: Demands = Demands {
+        gather_rays: 1,
+        fewest_photons: 2,
+        most_samples: 1 << 13,
+    };
+
     #[test]
     fn totals_are_met_exactly() {
         for (photons, samples) in [(1_000_003, 17), (16, 1), (100, 1000), (40_000_000, 5)] {
-            let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
-            let schedule = Schedule::new(&wanted, 6, 1, 2);
+            let wanted = Wanted {
+                photons: Some(photons),
+                samples: Some(samples),
+                ..Wanted::default()
+            };
+            let schedule = Schedule::new(&wanted, 6, &DEMANDS);
             let passes = schedule.ends.passes.unwrap();
-            assert_eq!((0..passes).map(|p| schedule.photons(p)).sum::<u64>(), photons);
-            assert_eq!((0..passes).map(|p| schedule.samples(p)).sum::<u64>(), samples);
-            assert!((0..passes).all(|p| schedule.samples(p) > 0 && schedule.photons(p) <= LARGEST_PASS.max(photons / passes + 1)));
+            assert_eq!(
+                (0..passes).map(|p| schedule.photons(p)).sum::<u64>(),
+                photons
+            );
+            assert_eq!(
+                (0..passes).map(|p| schedule.samples(p)).sum::<u64>(),
+                samples
+            );
+            assert!((0..passes).all(|p| schedule.samples(p) > 0
+                && schedule.photons(p) <= LARGEST_PASS.max(photons / passes + 1)));
         }
     }
 
     #[test]
     fn a_target_alone_has_no_count() {
-        let wanted = Wanted { target_error: Some(0.01), ..Wanted::default() };
-        assert_eq!(Schedule::new(&wanted, 1, 1, 1).ends.passes, None);
-        assert_eq!(Schedule::new(&Wanted::default(), 1, 1, 1).ends.passes, Some(16));
+        let wanted = Wanted {
+            target_error: Some(0.01),
+            ..Wanted::default()
+        };
+        assert_eq!(Schedule::new(&wanted, 1, &DEMANDS).ends.passes, None);
+        assert_eq!(
+            Schedule::new(&Wanted::default(), 1, &DEMANDS).ends.passes,
+            Some(16)
+        );
     }
 }

@@ -39,7 +39,11 @@ pub fn uniform_finite(k: u32, n: u64, counted: Counted) -> RelativeMoments {
 
 fn moments(k: u32, counted: Counted, second_factor: f64) -> RelativeMoments {
     let (k, m) = (f64::from(k), counted.of(k));
-    let mean = if k > 1.0 { m / (k - 1.0) } else { f64::INFINITY };
+    let mean = if k > 1.0 {
+        m / (k - 1.0)
+    } else {
+        f64::INFINITY
+    };
     let variance = if k > 2.0 {
         m * m / ((k - 1.0) * (k - 2.0)) * second_factor - mean * mean
     } else {

@@ -9,7 +9,6 @@ use roxmltree::{Document, ParsingOptions};
 use super::defaults::Defaults;
 use super::element::Element;
 use super::error::{Fault, Place, SceneError};
-use super::names::quote;
 use super::scan::{Refusal, check_count, scan};
 use super::source::{BYTE_LIMIT, Lines, read_text};
 use super::syntax::{nothing, syntax};
@@ -29,6 +28,14 @@ pub(super) struct Loaded {
     pub(super) notes: Vec<String>,
 }
 
+/// A file being read.
+struct OpenFile {
+    /// The path by which it was opened; what it includes is beside it.
+    path: PathBuf,
+    /// The same for every path to this file.
+    identity: PathBuf,
+}
+
 /// What is carried from file to file while loading.
 pub(super) struct Loader {
     start: Place,
@@ -36,7 +43,7 @@ pub(super) struct Loader {
     pub(super) ids: HashMap<String, (Place, &'static str)>,
     pub(super) notes: Vec<String>,
     /// The files being read, each included by the one before; empty if the scene is text without a file.
-    open: Vec<PathBuf>,
+    open: Vec<OpenFile>,
     bytes_left: u64,
     markup: usize,
     included: usize,
@@ -90,12 +97,13 @@ impl Loader {
         out: &mut Vec<Element>,
     ) -> Result<(), SceneError> {
         let refuse = |what: &str, mend: &str| Err(place.error("include", Fault::new(what, mend)));
-        if self.open.is_empty() {
+        let Some(open) = self.open.last() else {
             return refuse(
                 "a scene given as text cannot include files",
                 "put the file's contents here",
             );
-        }
+        };
+        let path = open.path.with_file_name("").join(filename);
         if self.open.len() > INCLUDE_LIMIT {
             return refuse(
                 &format!("more than {INCLUDE_LIMIT} files include each other"),
@@ -109,10 +117,6 @@ impl Loader {
                 "use fewer",
             );
         }
-        let path = Path::new(&*place.file)
-            .parent()
-            .unwrap_or(Path::new(""))
-            .join(filename);
         let name: Rc<str> = Rc::from(path.display().to_string());
         self.file(&path, place, "include", &mut |loader, text| {
             loader.document(text, &name, Some(parent), depth, out)
@@ -127,7 +131,7 @@ impl Loader {
         element: &str,
         then: &mut dyn FnMut(&mut Loader, &str) -> Result<(), SceneError>,
     ) -> Result<(), SceneError> {
-        let name = quote(&path.display().to_string());
+        let name = format!("{:?}", path.display().to_string());
         let about = |fault: Fault| {
             place.error(
                 element,
@@ -144,13 +148,14 @@ impl Loader {
         })?;
         self.bytes_left -= text.len() as u64;
         let identity = path.canonicalize().unwrap_or_else(|_| path.to_owned());
-        if self.open.contains(&identity) {
+        if self.open.iter().any(|open| open.identity == identity) {
             return Err(about(Fault::new(
                 "includes itself, directly or through others",
                 "break the circle",
             )));
         }
-        self.open.push(identity);
+        let path = path.to_owned();
+        self.open.push(OpenFile { path, identity });
         then(self, &text)?;
         self.open.pop();
         Ok(())

@@ -1,0 +1,39 @@
+//! The claims, one file each.
+
+mod knn_bias;
+
+use photonlab_measure::Record;
+
+use super::context::Context;
+
+/// A claim of the paper that can be put to the test.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Claim {
+    KnnBias,
+}
+
+impl Claim {
+    /// Every claim, in the order of the report.
+    pub(super) const ALL: [Claim; 1] = [Claim::KnnBias];
+
+    /// The claim's name everywhere.
+    pub(super) fn id(self) -> &'static str {
+        match self {
+            Claim::KnnBias => "knn-bias",
+        }
+    }
+
+    /// The text of its definition file.
+    pub(super) fn definition(self) -> &'static str {
+        match self {
+            Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
+        }
+    }
+
+    /// Runs its experiment.
+    pub(super) fn run(self, context: &Context) -> anyhow::Result<Record> {
+        match self {
+            Claim::KnnBias => knn_bias::run(context),
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! What every claim gets to run with, and the record it starts from.
+
+use std::{path::Path, path::PathBuf, process::Command, time::Instant};
+
+use photonlab_measure::{Budget, Comparison, FigureData, ImageEntry, Record, Row, Run, Verdict};
+use serde::de::DeserializeOwned;
+
+use super::{claims::Claim, date::today, definition::Definition};
+use crate::system;
+
+/// A claim about to be run.
+pub(super) struct Context {
+    pub(super) claim: Claim,
+    pub(super) budget: Budget,
+    definition: Definition,
+    out: PathBuf,
+    start: Instant,
+}
+
+/// What a claim's experiment found.
+#[derive(Default)]
+pub(super) struct Findings {
+    pub(super) seeds: Vec<u64>,
+    pub(super) comparisons: Vec<Comparison>,
+    pub(super) rows: Vec<Row>,
+    pub(super) figures: Vec<FigureData>,
+    pub(super) images: Vec<ImageEntry>,
+}
+
+impl Context {
+    pub(super) fn new(claim: Claim, budget: Budget, out: &Path) -> anyhow::Result<Self> {
+        let definition = Definition::parse(claim.id(), claim.definition())?;
+        Ok(Self {
+            claim,
+            budget,
+            definition,
+            out: out.into(),
+            start: Instant::now(),
+        })
+    }
+
+    /// The claim's own parameters at this budget.
+    pub(super) fn parameters<P: DeserializeOwned>(&self) -> anyhow::Result<P> {
+        self.definition.parameters(self.budget)
+    }
+
+    /// Where a picture of this claim is written, and its path relative to the record.
+    pub(super) fn image(&self, name: &str) -> (PathBuf, String) {
+        let relative = super::image_path(self.claim, name);
+        (
+            self.out.join("records").join(&relative),
+            relative.to_string_lossy().into_owned(),
+        )
+    }
+
+    /// The record of what was found.
+    pub(super) fn record(
+        &self,
+        found: Findings,
+        verdict: Verdict,
+        reason: impl Into<String>,
+    ) -> Record {
+        let d = &self.definition;
+        let date = today();
+        let commit = commit();
+        let short = commit
+            .as_deref()
+            .map_or("no-commit", |c| &c[..c.len().min(10)])
+            .to_string();
+        Record {
+            claim: self.claim.id().into(),
+            title: d.title.clone(),
+            statement: d.statement.clone(),
+            question: d.question.clone(),
+            formula: d.formula.clone(),
+            expectation: d.expectation.clone(),
+            expectation_reason: d.expectation_reason.clone(),
+            refuted_if: d.refuted_if.clone(),
+            budget: self.budget,
+            run: Run {
+                id: format!("{}-{}-{date}-{short}", self.claim.id(), self.budget.name()),
+                commit,
+                command: format!(
+                    "photonlab reproduce {} --budget {}",
+                    self.claim.id(),
+                    self.budget.name()
+                ),
+                processor: system::processor(),
+                threads: system::threads(),
+                date,
+                seconds: self.start.elapsed().as_secs_f64(),
+            },
+            seeds: found.seeds,
+            comparisons: found.comparisons,
+            rows: found.rows,
+            figures: found.figures,
+            images: found.images,
+            verdict,
+            reason: reason.into(),
+        }
+    }
+}
+
+/// The commit of the checkout that this program was built in, if the program still runs beside it.
+fn commit() -> Option<String> {
+    let output = Command::new("git")
+        .args(["-C", env!("CARGO_MANIFEST_DIR"), "rev-parse", "HEAD"])
+        .output()
+        .ok()?;
+    let text = String::from_utf8(output.stdout).ok()?;
+    (output.status.success() && !text.trim().is_empty()).then(|| text.trim().to_owned())
+}

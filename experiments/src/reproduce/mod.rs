@@ -1,0 +1,97 @@
+//! `photonlab reproduce`: claims to records, figures and a report.
+
+mod claims;
+mod context;
+mod date;
+mod definition;
+mod field;
+mod lab;
+mod report;
+
+use std::path::{Path, PathBuf};
+
+use photonlab_measure::{Budget, Record};
+
+use crate::{Failure, command, interrupt, system};
+use claims::Claim;
+use context::Context;
+
+/// Runs the claims asked for and writes the report; its path is the last line on standard output.
+pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
+    if arguments.device == command::DeviceName::Gpu {
+        return Err(Failure::usage(
+            "--device gpu is not built yet; leave it out",
+        ));
+    }
+    system::start_threads(arguments.threads)?;
+    let budget = arguments.budget.budget();
+    let claims = chosen(&arguments.claims)?;
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| Path::new("target/reproduce").join(budget.name()));
+    for folder in ["records", "records/images", "figures"] {
+        std::fs::create_dir_all(out.join(folder)).map_err(|error| {
+            Failure::usage(format!(
+                "--out {}: cannot make {folder} there: {error}; choose a writable folder",
+                out.display()
+            ))
+        })?;
+    }
+    let mut finished = Vec::new();
+    for (number, &claim) in claims.iter().enumerate() {
+        eprintln!("[{}/{}] {}", number + 1, claims.len(), claim.id());
+        let record = run(claim, budget, &out)?;
+        eprintln!("       {}: {}", verdict_word(&record), record.reason);
+        finished.push(record);
+    }
+    let page = report::write(&finished, &out)?;
+    println!("{}", page.display());
+    Ok(())
+}
+
+fn run(claim: Claim, budget: Budget, out: &Path) -> Result<Record, Failure> {
+    let context = Context::new(claim, budget, out)?;
+    let record = claim.run(&context)?;
+    let _guard = interrupt::writing();
+    record
+        .save(&out.join("records").join(format!("{}.json", claim.id())))
+        .map_err(anyhow::Error::from)?;
+    Ok(record)
+}
+
+/// The claims that the words name; none named means all.
+fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
+    if words.is_empty() {
+        return Ok(Claim::ALL.to_vec());
+    }
+    let known = || Claim::ALL.map(Claim::id).join(", ");
+    let find = |word: &String| match word.as_str() {
+        "catalogue" | "atlas" => Err(Failure::usage(format!(
+            "{word} is not built yet; claims built: {}",
+            known()
+        ))),
+        _ => Claim::ALL
+            .into_iter()
+            .find(|claim| claim.id() == word)
+            .ok_or_else(|| {
+                Failure::usage(format!(
+                    "no claim is called `{word}`; claims built: {}",
+                    known()
+                ))
+            }),
+    };
+    words.iter().map(find).collect()
+}
+
+fn verdict_word(record: &Record) -> String {
+    serde_json::to_value(record.verdict)
+        .ok()
+        .and_then(|v| v.as_str().map(str::to_owned))
+        .unwrap_or_default()
+}
+
+/// Where a claim's pictures go, relative to its record.
+fn image_path(claim: Claim, name: &str) -> PathBuf {
+    Path::new("images").join(format!("{}-{name}", claim.id()))
+}
