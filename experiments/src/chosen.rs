@@ -33,21 +33,13 @@ impl Options {
         }
         let k = self.k.unwrap_or(DEFAULT_K as u64);
         if k < 2 {
-            return Err(Failure::usage(
-                "--k must be at least 2: the k-th photon only sets the radius",
-            ));
+            return Err(Failure::usage("--k must be at least 2: the k-th photon only sets the radius"));
         }
         let method = match name {
-            MethodName::Nearest => Method::Nearest {
-                k: usize::try_from(k).unwrap_or(usize::MAX),
-            },
-            MethodName::Radius => Method::Radius {
-                radius: self.radius,
-            },
+            MethodName::Nearest => Method::Nearest { k: usize::try_from(k).unwrap_or(usize::MAX) },
+            MethodName::Radius => Method::Radius { radius: self.radius },
             MethodName::Path => Method::Path,
-            _ => Method::FinalGather {
-                radius: self.radius,
-            },
+            _ => Method::FinalGather { radius: self.radius },
         };
         let direct = match self.direct {
             Some(DirectName::Photons) => Direct::Photons,
@@ -77,9 +69,7 @@ impl Options {
             passes: self.passes,
             samples: self.spp,
             target_error: self.target_error,
-            time_limit: self
-                .time_limit
-                .map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
+            time_limit: self.time_limit.map(|seconds| Duration::try_from_secs_f64(seconds).unwrap_or(Duration::MAX)),
         }
     }
 
@@ -97,26 +87,12 @@ impl Options {
             return Ok(self.method);
         }
         let uses = self.uses();
-        let fits = |name: MethodName| {
-            uses.iter()
-                .all(|(_, given, users)| !given || users.contains(&name))
-        };
-        let order = [
-            MethodName::FinalGather,
-            MethodName::Radius,
-            MethodName::Nearest,
-            MethodName::Path,
-        ];
+        let fits = |name: MethodName| uses.iter().all(|(_, given, users)| !given || users.contains(&name));
+        let order = [MethodName::FinalGather, MethodName::Radius, MethodName::Nearest, MethodName::Path];
         order.into_iter().find(|&name| fits(name)).ok_or_else(|| {
-            let given: Vec<_> = uses
-                .iter()
-                .filter(|(_, given, _)| *given)
-                .map(|(option, ..)| format!("--{option}"))
-                .collect();
-            Failure::usage(format!(
-                "no method uses all of {}; leave one out",
-                given.join(", ")
-            ))
+            let given: Vec<_> =
+                uses.iter().filter(|(_, given, _)| *given).map(|(option, ..)| format!("--{option}")).collect();
+            Failure::usage(format!("no method uses all of {}; leave one out", given.join(", ")))
         })
     }
 
@@ -126,23 +102,11 @@ impl Options {
         [
             ("k", self.k.is_some(), &[Nearest]),
             ("radius", self.radius.is_some(), &[FinalGather, Radius]),
-            (
-                "kernel",
-                self.kernel.is_some(),
-                &[FinalGather, Radius, Nearest],
-            ),
+            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest]),
             ("area", self.area.is_some(), &[Radius, Nearest]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
-            (
-                "direct photons",
-                self.direct == Some(DirectName::Photons),
-                &[Radius, Nearest],
-            ),
-            (
-                "photons",
-                self.photons.is_some(),
-                &[FinalGather, Radius, Nearest],
-            ),
+            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest]),
+            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest]),
             ("map", self.map.is_some(), &[FinalGather, Radius, Nearest]),
         ]
     }
@@ -153,17 +117,13 @@ impl Options {
             MethodName::Progressive => Some("--method progressive"),
             MethodName::Bins => Some("--method bins"),
             _ if self.cache => Some("--cache"),
-            _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => {
-                Some("a kernel other than disc")
-            }
+            _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => Some("a kernel other than disc"),
             _ if self.area == Some(AreaName::Clipped) => Some("--area clipped"),
             _ if self.device == DeviceName::Gpu => Some("--device gpu"),
             _ => None,
         };
         match not_built {
-            Some(what) => Err(Failure::usage(format!(
-                "{what} is not built yet; leave it out"
-            ))),
+            Some(what) => Err(Failure::usage(format!("{what} is not built yet; leave it out"))),
             None => Ok(()),
         }
     }

@@ -9,13 +9,7 @@ use crate::number;
 
 /// Photon-map illuminance with error bars that hold.
 #[derive(Parser)]
-#[command(
-    name = "photonlab",
-    version,
-    about,
-    subcommand_required = true,
-    arg_required_else_help = true
-)]
+#[command(name = "photonlab", version, about, subcommand_required = true, arg_required_else_help = true)]
 pub(crate) struct Photonlab {
     #[command(subcommand)]
     pub(crate) command: Command,

@@ -20,32 +20,20 @@ pub(crate) fn png(image: &Image, unit: &str) -> anyhow::Result<Vec<u8>> {
     let (width, height) = (image.width * zoom + LEGEND_WIDTH, image.height * zoom);
     let mean = |pixel: &[f32; 3]| (pixel[0] + pixel[1] + pixel[2]) / 3.0;
     let top = percentile(image.pixels.iter().map(mean), 0.995).max(f32::MIN_POSITIVE);
-    let mut canvas = Canvas {
-        width,
-        height,
-        rgb: vec![255; width * height * 3],
-    };
+    let mut canvas = Canvas { width, height, rgb: vec![255; width * height * 3] };
     for y in 0..height {
         for x in 0..image.width * zoom {
             let value = mean(&image.pixels[(y / zoom) * image.width + x / zoom]);
             canvas.set(x, y, colour(value / top));
         }
     }
-    draw_legend(
-        &mut canvas,
-        image.width * zoom + MARGIN,
-        f64::from(top),
-        unit,
-    );
+    draw_legend(&mut canvas, image.width * zoom + MARGIN, f64::from(top), unit);
     encode_png(width, height, &canvas.rgb)
 }
 
 fn draw_legend(canvas: &mut Canvas, left: usize, top: f64, unit: &str) {
     canvas.text(left, MARGIN, unit);
-    let (first, last) = (
-        MARGIN + 3 * GLYPH.1 * DOT,
-        canvas.height - MARGIN - GLYPH.1 * DOT,
-    );
+    let (first, last) = (MARGIN + 3 * GLYPH.1 * DOT, canvas.height - MARGIN - GLYPH.1 * DOT);
     for y in first..last {
         let share = (last - 1 - y) as f32 / (last - 1 - first) as f32;
         for x in left..left + BAR {
@@ -55,21 +43,13 @@ fn draw_legend(canvas: &mut Canvas, left: usize, top: f64, unit: &str) {
     for mark in 0..MARKS {
         let share = mark as f64 / (MARKS - 1) as f64;
         let y = last - 1 - (share * (last - 1 - first) as f64) as usize;
-        canvas.text(
-            left + BAR + MARGIN / 2,
-            y - GLYPH.1 * DOT / 2,
-            &short(share * top),
-        );
+        canvas.text(left + BAR + MARGIN / 2, y - GLYPH.1 * DOT / 2, &short(share * top));
     }
 }
 
 /// Three digits, with an exponent where needed.
 fn short(value: f64) -> String {
-    let magnitude = if value == 0.0 {
-        0.0
-    } else {
-        value.abs().log10().floor()
-    };
+    let magnitude = if value == 0.0 { 0.0 } else { value.abs().log10().floor() };
     match magnitude {
         m if !(-3.0..5.0).contains(&m) => format!("{value:.2e}"),
         m => format!("{value:.*}", (2.0 - m).max(0.0) as usize),
@@ -89,9 +69,7 @@ fn colour(share: f32) -> [u8; 3] {
     let at = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
     let low = (at as usize).min(STOPS.len() - 2);
     let part = at - low as f32;
-    std::array::from_fn(|c| {
-        (STOPS[low][c] + part * (STOPS[low + 1][c] - STOPS[low][c])).round() as u8
-    })
+    std::array::from_fn(|c| (STOPS[low][c] + part * (STOPS[low + 1][c] - STOPS[low][c])).round() as u8)
 }
 
 struct Canvas {

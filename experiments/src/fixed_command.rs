@@ -13,21 +13,12 @@ pub(crate) fn fixed_command<const C: usize>(
     settings: &Settings,
     outcome: &Outcome<C>,
 ) -> String {
-    let mut words = vec![
-        "photonlab".to_string(),
-        verb.into(),
-        quoted(&scene.scene.display().to_string()),
-    ];
+    let mut words = vec!["photonlab".to_string(), verb.into(), quoted(&scene.scene.display().to_string())];
     let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
     option("method", settings.method.name().into());
     match settings.method {
         Method::Nearest { k } => option("k", k.to_string()),
-        Method::Radius {
-            radius: Some(radius),
-        }
-        | Method::FinalGather {
-            radius: Some(radius),
-        } => {
+        Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
             option("radius", radius.to_string());
         }
         Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path => {}
@@ -77,12 +68,6 @@ pub(crate) fn fixed_command<const C: usize>(
 
 /// A word as a shell takes it.
 fn quoted(word: &str) -> String {
-    let plain = word
-        .chars()
-        .all(|c| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c));
-    if plain && !word.is_empty() {
-        word.into()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
+    let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c));
+    if plain && !word.is_empty() { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
 }

@@ -4,8 +4,7 @@ use std::{io::Cursor, path::Path};
 
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes,
-    Text, WritableImage,
+    AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, Text, WritableImage,
 };
 
 use crate::Failure;
@@ -29,10 +28,7 @@ pub(crate) struct Layers {
 
 /// Refuses an output that could not be written, before any work is done for it.
 pub(crate) fn is_writable(path: &Path) -> Result<(), Failure> {
-    let folder = path
-        .parent()
-        .filter(|p| !p.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
         return Err(Failure::usage(format!(
             "-o {}: the folder {} does not exist; make it first",
@@ -41,10 +37,7 @@ pub(crate) fn is_writable(path: &Path) -> Result<(), Failure> {
         )));
     }
     if path.is_dir() {
-        return Err(Failure::usage(format!(
-            "-o {}: this is a folder; name a file in it",
-            path.display()
-        )));
+        return Err(Failure::usage(format!("-o {}: this is a folder; name a file in it", path.display())));
     }
     Ok(())
 }
@@ -53,61 +46,31 @@ impl Layers {
     /// One part, 32-bit float, linear; channels `R G B`, `std_error.*`, `bias_bound.*`, `photons_used.Y`.
     pub(crate) fn to_exr(&self) -> anyhow::Result<Vec<u8>> {
         let mut channels = Vec::new();
-        for (prefix, image) in [
-            ("", &self.value),
-            ("std_error.", &self.std_error),
-            ("bias_bound.", &self.bias_bound),
-        ] {
+        for (prefix, image) in [("", &self.value), ("std_error.", &self.std_error), ("bias_bound.", &self.bias_bound)] {
             for (c, name) in ["R", "G", "B"].into_iter().enumerate() {
                 let samples = image.pixels.iter().map(|pixel| pixel[c]).collect();
-                channels.push(AnyChannel::new(
-                    format!("{prefix}{name}").as_str(),
-                    FlatSamples::F32(samples),
-                ));
+                channels.push(AnyChannel::new(format!("{prefix}{name}").as_str(), FlatSamples::F32(samples)));
             }
         }
-        channels.push(AnyChannel::new(
-            "photons_used.Y",
-            FlatSamples::F32(self.photons_used.clone()),
-        ));
+        channels.push(AnyChannel::new("photons_used.Y", FlatSamples::F32(self.photons_used.clone())));
         let mut attributes = LayerAttributes::default();
         for (name, value) in &self.attributes {
             let value = Text::new_or_none(value).unwrap_or_else(|| Text::from("not expressible"));
-            attributes
-                .other
-                .insert(Text::from(name.as_str()), AttributeValue::Text(value));
+            attributes.other.insert(Text::from(name.as_str()), AttributeValue::Text(value));
         }
         let size = (self.value.width, self.value.height);
-        let layer = Layer::new(
-            size,
-            attributes,
-            Encoding::FAST_LOSSLESS,
-            AnyChannels::sort(channels.into_iter().collect()),
-        );
+        let layer =
+            Layer::new(size, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
         let mut bytes = Cursor::new(Vec::new());
-        ExrImage::from_layer(layer)
-            .write()
-            .non_parallel()
-            .to_buffered(&mut bytes)?;
+        ExrImage::from_layer(layer).write().non_parallel().to_buffered(&mut bytes)?;
         Ok(bytes.into_inner())
     }
 
     /// Tone-mapped for looking at: exposed so that the brightest percent saturates, sRGB curve.
     pub(crate) fn to_png(&self) -> anyhow::Result<Vec<u8>> {
-        let white = percentile(
-            self.value
-                .pixels
-                .iter()
-                .map(|p| p.iter().copied().fold(0.0, f32::max)),
-            0.99,
-        );
+        let white = percentile(self.value.pixels.iter().map(|p| p.iter().copied().fold(0.0, f32::max)), 0.99);
         let scale = if white > 0.0 { 1.0 / white } else { 1.0 };
-        let rgb: Vec<u8> = self
-            .value
-            .pixels
-            .iter()
-            .flat_map(|pixel| pixel.map(|x| srgb(x * scale)))
-            .collect();
+        let rgb: Vec<u8> = self.value.pixels.iter().flat_map(|pixel| pixel.map(|x| srgb(x * scale))).collect();
         encode_png(self.value.width, self.value.height, &rgb)
     }
 
@@ -134,19 +97,12 @@ pub(crate) fn percentile(values: impl Iterator<Item = f32>, share: f64) -> f32 {
     let mut sorted: Vec<f32> = values.filter(|x| x.is_finite()).collect();
     sorted.sort_by(f32::total_cmp);
     let last = sorted.len().saturating_sub(1);
-    sorted
-        .get((share * last as f64).round() as usize)
-        .copied()
-        .unwrap_or(0.0)
+    sorted.get((share * last as f64).round() as usize).copied().unwrap_or(0.0)
 }
 
 /// The sRGB transfer curve, to 8 bits.
 fn srgb(linear: f32) -> u8 {
     let x = linear.clamp(0.0, 1.0);
-    let curved = if x <= 0.003_130_8 {
-        12.92 * x
-    } else {
-        1.055 * x.powf(1.0 / 2.4) - 0.055
-    };
+    let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
     (curved * 255.0).round() as u8
 }

@@ -6,9 +6,7 @@ static WRITING: Mutex<()> = Mutex::new(());
 
 /// Held while a file takes its final name; an interrupt waits for it.
 pub(crate) fn writing() -> MutexGuard<'static, ()> {
-    WRITING
-        .lock()
-        .unwrap_or_else(|poisoned| poisoned.into_inner())
+    WRITING.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the program once no file is being written.

@@ -1,9 +1,7 @@
 //! A scene loaded and made ready, and everything that is said of it on the way.
 
 use photonlab_photometry::Channels;
-use photonlab_readout::{
-    MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity,
-};
+use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
 use photonlab_sampling::Lamps;
 use photonlab_scene::{Bsdf, Meter, Needs, Receiver, Scene, World, read::read_scene};
 
@@ -22,16 +20,11 @@ pub(crate) struct Loaded {
 impl Loaded {
     /// Reads a scene file; what it supersedes is said on standard error.
     pub(crate) fn new(arguments: &SceneArguments) -> Result<Self, Failure> {
-        let scene = read_scene(&arguments.scene, &arguments.define)
-            .map_err(|e| Failure::usage(e.to_string()))?;
+        let scene = read_scene(&arguments.scene, &arguments.define).map_err(|e| Failure::usage(e.to_string()))?;
         for note in &scene.notes {
             eprintln!("{}: note: {note}", arguments.scene.display());
         }
-        Ok(Self {
-            needs: Needs::of(&scene),
-            identity: scene_identity(&scene),
-            world: World::new(scene),
-        })
+        Ok(Self { needs: Needs::of(&scene), identity: scene_identity(&scene), world: World::new(scene) })
     }
 
     /// Refuses a scene without light.
@@ -39,18 +32,11 @@ impl Loaded {
         if self.world.scene.has_light() {
             return Ok(());
         }
-        Err(Failure::usage(format!(
-            "{}:1: scene: no lamp; add an <emitter>",
-            file.display()
-        )))
+        Err(Failure::usage(format!("{}:1: scene: no lamp; add an <emitter>", file.display())))
     }
 
     /// Refuses a meter that no photon can be recorded on.
-    pub(crate) fn meters_are_readable(
-        &self,
-        file: &std::path::Path,
-        sensors: &[usize],
-    ) -> Result<(), Failure> {
+    pub(crate) fn meters_are_readable(&self, file: &std::path::Path, sensors: &[usize]) -> Result<(), Failure> {
         let scene = &self.world.scene;
         for &index in sensors {
             let sensor = &scene.sensors[index];
@@ -103,8 +89,7 @@ pub(crate) fn open_map<const C: usize>(
     let header = MapHeader::read(path).map_err(|e| Failure::usage(e.to_string()))?;
     if header.identity != loaded.identity {
         return Err(wrong(
-            "this map is of another scene; build it again from this one with `photonlab map build`"
-                .into(),
+            "this map is of another scene; build it again from this one with `photonlab map build`".into(),
         ));
     }
     if !header.classes.contains(settings.classes()) {
@@ -114,17 +99,11 @@ pub(crate) fn open_map<const C: usize>(
         )));
     }
     settings.limits = header.limits;
-    Ok(Some(
-        MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?,
-    ))
+    Ok(Some(MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?))
 }
 
 /// The schedule of a session, with its default count named on standard error.
-pub(crate) fn schedule<const C: usize>(
-    session: &Session<'_, C>,
-    wanted: &Wanted,
-    cells: usize,
-) -> Schedule {
+pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()
@@ -142,10 +121,7 @@ pub(crate) fn schedule<const C: usize>(
 }
 
 /// The lamps of a world in its channels; refuses what emits nothing.
-pub(crate) fn lamps<const C: usize>(
-    loaded: &Loaded,
-    file: &std::path::Path,
-) -> Result<Lamps<C>, Failure> {
+pub(crate) fn lamps<const C: usize>(loaded: &Loaded, file: &std::path::Path) -> Result<Lamps<C>, Failure> {
     let lamps = Lamps::new(&loaded.world);
     if lamps.lamps.is_empty() {
         return Err(Failure::usage(format!(
@@ -172,27 +148,16 @@ pub(crate) fn sensors(
     kind: &str,
     is_kind: impl Fn(&Receiver) -> bool,
 ) -> Result<Vec<usize>, Failure> {
-    let of_kind: Vec<usize> = (0..scene.sensors.len())
-        .filter(|&i| is_kind(&scene.sensors[i].receiver))
-        .collect();
+    let of_kind: Vec<usize> = (0..scene.sensors.len()).filter(|&i| is_kind(&scene.sensors[i].receiver)).collect();
     if of_kind.is_empty() {
-        return Err(Failure::usage(format!(
-            "{}:1: scene: no {kind}; add a <sensor>",
-            file.display()
-        )));
+        return Err(Failure::usage(format!("{}:1: scene: no {kind}; add a <sensor>", file.display())));
     }
     let Some(id) = wanted else { return Ok(of_kind) };
     match of_kind.iter().find(|&&i| scene.sensors[i].id == id) {
         Some(&index) => Ok(vec![index]),
         None => {
-            let ids: Vec<_> = of_kind
-                .iter()
-                .map(|&i| format!("`{}`", scene.sensors[i].id))
-                .collect();
-            Err(Failure::usage(format!(
-                "--sensor {id}: the scene has no such {kind}; it has {}",
-                ids.join(", ")
-            )))
+            let ids: Vec<_> = of_kind.iter().map(|&i| format!("`{}`", scene.sensors[i].id)).collect();
+            Err(Failure::usage(format!("--sensor {id}: the scene has no such {kind}; it has {}", ids.join(", "))))
         }
     }
 }
@@ -211,9 +176,5 @@ macro_rules! by_channels {
 
 /// The number of channels, for messages.
 pub(crate) fn channel_names(channels: Channels) -> Vec<String> {
-    channels
-        .names()
-        .iter()
-        .map(|name| name.to_string())
-        .collect()
+    channels.names().iter().map(|name| name.to_string()).collect()
 }

@@ -54,37 +54,18 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
     reading.direct = None;
     let settings: Settings = reading.settings(&loaded.world.scene)?;
     let classes = match options.direct {
-        Some(DirectName::Sampled) => Classes {
-            direct: false,
-            ..Classes::ALL
-        },
+        Some(DirectName::Sampled) => Classes { direct: false, ..Classes::ALL },
         Some(DirectName::Photons) | None => Classes::ALL,
     };
-    let wanted = Wanted {
-        photons: options.photons,
-        passes: options.passes,
-        ..Wanted::default()
-    };
+    let wanted = Wanted { photons: options.photons, passes: options.passes, ..Wanted::default() };
     let schedule = Schedule::new(
         &wanted,
         1,
-        &Demands {
-            gather_rays: 1,
-            fewest_photons: lamps.lamps.len() as u64,
-            most_samples: 1,
-        },
+        &Demands { gather_rays: 1, fewest_photons: lamps.lamps.len() as u64, most_samples: 1 },
     );
     let passes = schedule.ends.passes.unwrap_or(1);
-    let traced = (0..passes).map(|pass| {
-        trace_pass(
-            &loaded.world,
-            &lamps,
-            &settings,
-            classes,
-            pass as u32,
-            schedule.photons(pass),
-        )
-    });
+    let traced = (0..passes)
+        .map(|pass| trace_pass(&loaded.world, &lamps, &settings, classes, pass as u32, schedule.photons(pass)));
     let header = MapHeader {
         channels: C as u32,
         identity: loaded.identity,
@@ -92,10 +73,7 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
         classes,
         limits: settings.limits,
     };
-    let file = MapFile::<C> {
-        header,
-        passes: traced.collect::<Result<_, _>>().map_err(read_failure)?,
-    };
+    let file = MapFile::<C> { header, passes: traced.collect::<Result<_, _>>().map_err(read_failure)? };
     let _guard = interrupt::writing();
     file.save(&arguments.output)?;
     Ok(())
@@ -114,22 +92,12 @@ fn info(path: &Path) -> Result<(), Failure> {
 fn describe<const C: usize>(file: &MapFile<C>) -> String {
     let header = &file.header;
     let mut text = format!("photon map of scene {:032x}\n", header.identity);
-    let classes: Vec<_> = PathClass::ALL
-        .into_iter()
-        .filter(|&class| header.classes.has(class))
-        .map(PathClass::name)
-        .collect();
+    let classes: Vec<_> =
+        PathClass::ALL.into_iter().filter(|&class| header.classes.has(class)).map(PathClass::name).collect();
     let emitted: u64 = file.passes.iter().map(|pass| pass.emitted).sum();
     let stored: usize = file.passes.iter().map(|pass| pass.photons.len()).sum();
-    let depth = header
-        .limits
-        .max_segments
-        .map_or("unlimited".to_string(), |n| n.to_string());
-    let _ = writeln!(
-        text,
-        "channels        {}",
-        if C == 1 { "Y" } else { "R G B" }
-    );
+    let depth = header.limits.max_segments.map_or("unlimited".to_string(), |n| n.to_string());
+    let _ = writeln!(text, "channels        {}", if C == 1 { "Y" } else { "R G B" });
     let _ = writeln!(text, "classes         {}", classes.join(" "));
     let _ = writeln!(text, "seed            {}", header.seed);
     let _ = writeln!(text, "longest path    {depth}");
@@ -137,14 +105,9 @@ fn describe<const C: usize>(file: &MapFile<C>) -> String {
     let _ = writeln!(text, "emitted paths   {emitted}");
     let _ = writeln!(text, "stored photons  {stored}");
     let mean = |of: &dyn Fn(&photonlab_trace::Ledger<C>) -> f64| {
-        file.passes.iter().map(|pass| of(&pass.ledger)).sum::<f64>()
-            / file.passes.len().max(1) as f64
+        file.passes.iter().map(|pass| of(&pass.ledger)).sum::<f64>() / file.passes.len().max(1) as f64
     };
-    for (channel, name) in (0..C).zip(if C == 1 {
-        &["Y"][..]
-    } else {
-        &["R", "G", "B"][..]
-    }) {
+    for (channel, name) in (0..C).zip(if C == 1 { &["Y"][..] } else { &["R", "G", "B"][..] }) {
         let _ = writeln!(
             text,
             "flux {name}          emitted {:.6}, absorbed {:.6}, escaped {:.6}, cut off {:.6}, roulette {:.6}",

@@ -2,9 +2,7 @@
 
 use std::{io::Write, time::Instant};
 
-use photonlab_measure::{
-    FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile,
-};
+use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass};
 use photonlab_readout::{Cell, Method, Outcome, Session, Settings, Source};
 use photonlab_scene::{Needs, Receiver, Scene};
@@ -29,33 +27,15 @@ pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {
     let loaded = Loaded::new(&arguments.scene)?;
     let file = &arguments.scene.scene;
     if arguments.options.size.is_some() {
-        return Err(Failure::usage(
-            "--size is for images; a meter's cells are its film's",
-        ));
+        return Err(Failure::usage("--size is for images; a meter's cells are its film's"));
     }
     loaded.needs_light(file)?;
     let is_meter = |receiver: &Receiver| matches!(receiver, Receiver::Meter(_));
-    let chosen = sensors(
-        &loaded.world.scene,
-        file,
-        arguments.options.sensor.as_deref(),
-        "meter",
-        is_meter,
-    )?;
+    let chosen = sensors(&loaded.world.scene, file, arguments.options.sensor.as_deref(), "meter", is_meter)?;
     loaded.meters_are_readable(file, &chosen)?;
-    let cells: Vec<Cell> = chosen
-        .iter()
-        .flat_map(|&index| Cell::of_sensor(&loaded.world.scene, index))
-        .collect();
-    let measurement = by_channels!(
-        loaded.needs.channels,
-        run(arguments, &loaded, &cells, start)
-    )?;
-    let text = if arguments.json {
-        measurement.to_json()?
-    } else {
-        table(&measurement, arguments.options.confidence)
-    };
+    let cells: Vec<Cell> = chosen.iter().flat_map(|&index| Cell::of_sensor(&loaded.world.scene, index)).collect();
+    let measurement = by_channels!(loaded.needs.channels, run(arguments, &loaded, &cells, start))?;
+    let text = if arguments.json { measurement.to_json()? } else { table(&measurement, arguments.options.confidence) };
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
 }
@@ -71,30 +51,15 @@ fn run<const C: usize>(
     let mut settings = options.settings(&loaded.world.scene)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
-    let session = Session {
-        world,
-        lamps: &lamps,
-        needs,
-        settings,
-        confidence,
-        rms: false,
-    };
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: false };
     let schedule = schedule(&session, &options.wanted(), cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
-    let outcome = session
-        .run(cells, &schedule, &source, &Progress::new(&schedule.ends))
-        .map_err(read_failure)?;
+    let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn_of_trapped_light(outcome.ledger.as_ref());
     Ok(Measurement {
         scene: arguments.scene.scene.display().to_string(),
         method: settings.method.name().into(),
-        command: Some(fixed_command(
-            "measure",
-            &arguments.scene,
-            options,
-            &settings,
-            &outcome,
-        )),
+        command: Some(fixed_command("measure", &arguments.scene, options, &settings, &outcome)),
         seed: settings.seed,
         threads: system::threads(),
         photons: outcome.photons,
@@ -102,24 +67,9 @@ fn run<const C: usize>(
         peak_bytes: system::peak_bytes(),
         stopped: outcome.stopped,
         channels: channel_names(outcome.channels),
-        needs: loaded
-            .needs
-            .list
-            .iter()
-            .map(|n| Need {
-                need: n.need.clone(),
-                reason: n.reason.clone(),
-            })
-            .collect(),
+        needs: loaded.needs.list.iter().map(|n| Need { need: n.need.clone(), reason: n.reason.clone() }).collect(),
         ledger: flux_ledger(outcome.ledger.as_ref()),
-        readings: readings(
-            &loaded.world.scene,
-            cells,
-            &outcome,
-            options,
-            &settings,
-            &loaded.needs,
-        )?,
+        readings: readings(&loaded.world.scene, cells, &outcome, options, &settings, &loaded.needs)?,
     })
 }
 
@@ -144,11 +94,7 @@ fn readings<const C: usize>(
     needs: &Needs,
 ) -> Result<Vec<Reading>, Failure> {
     let passes = outcome.passes;
-    let t = if passes > 1 {
-        student_t_quantile(options.confidence, (passes - 1) as f64)
-    } else {
-        0.0
-    };
+    let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
     let doubt = doubt(scene, settings, needs);
     let mut readings = Vec::new();
     for (cell, result) in cells.iter().zip(&outcome.cells) {
@@ -160,17 +106,16 @@ fn readings<const C: usize>(
                 channel: outcome.channels.names()[channel].into(),
             };
             if result.found_nothing() {
-                let why = "no light was found: no photon and no lamp sample reached it, which does not show that it is dark";
-                readings.push(
-                    Reading::nothing(place, why).with_support(result.photons, outcome.radius)?,
-                );
+                let why =
+                    "no light was found: no photon and no lamp sample reached it, which does not show that it is dark";
+                readings.push(Reading::nothing(place, why).with_support(result.photons, outcome.radius)?);
                 continue;
             }
             let value = result.value[channel].mean().unwrap_or(0.0);
             let bias_bound = result.bias_bound(channel, options.confidence);
             let error = result.value[channel].std_error();
-            let mut reading = Reading::new(place, value, error, t, Some(bias_bound))?
-                .with_support(result.photons, outcome.radius)?;
+            let mut reading =
+                Reading::new(place, value, error, t, Some(bias_bound))?.with_support(result.photons, outcome.radius)?;
             let unresolved = result.unresolved_share(channel);
             if unresolved > RESOLVED {
                 reading = reading.not_certified(&format!(
@@ -196,7 +141,9 @@ pub(crate) fn doubt(scene: &Scene, settings: &Settings, needs: &Needs) -> Option
         );
     }
     if settings.area == photonlab_gather::AreaModel::Sphere {
-        return Some("the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into());
+        return Some(
+            "the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into(),
+        );
     }
     None
 }
@@ -211,10 +158,7 @@ fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>) -> FluxLedger {
             cut_off: none.clone(),
             roulette: none,
         };
-        return FluxLedger {
-            total,
-            ..FluxLedger::default()
-        };
+        return FluxLedger { total, ..FluxLedger::default() };
     };
     let book = |emitted: Colour<C>, book: &Book<C>| FluxBook {
         emitted: emitted.0.to_vec(),
@@ -225,10 +169,7 @@ fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>) -> FluxLedger {
     };
     let class = |class: PathClass| {
         let of_class = &ledger.classes[class as usize];
-        (
-            class.name().to_string(),
-            book(of_class.accounted(), of_class),
-        )
+        (class.name().to_string(), book(of_class.accounted(), of_class))
     };
     FluxLedger {
         total: book(ledger.emitted, &ledger.total()),
@@ -254,10 +195,7 @@ fn table(measurement: &Measurement, confidence: f64) -> String {
             (Some(value), None) => format!("{value:>14.6} ± unknown      {}", r.unit),
             (None, _) => "       nothing found".to_string(),
         };
-        let why = r
-            .why
-            .as_ref()
-            .map_or(String::new(), |why| format!("  (not certified: {why})"));
+        let why = r.why.as_ref().map_or(String::new(), |why| format!("  (not certified: {why})"));
         let _ = writeln!(text, "{name:<32} {value}{why}");
     }
     text

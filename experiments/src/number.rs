@@ -5,9 +5,7 @@ pub(crate) fn count(text: &str) -> Result<u64, String> {
     if let Ok(count) = text.parse::<u64>() {
         return Ok(count);
     }
-    let value: f64 = text
-        .parse()
-        .map_err(|_| "not a count; write it like 4096 or 1e6".to_string())?;
+    let value: f64 = text.parse().map_err(|_| "not a count; write it like 4096 or 1e6".to_string())?;
     if value.fract() == 0.0 && (0.0..=1e18).contains(&value) {
         Ok(value as u64)
     } else {
@@ -17,13 +15,7 @@ pub(crate) fn count(text: &str) -> Result<u64, String> {
 
 /// A count above zero.
 pub(crate) fn positive_count(text: &str) -> Result<u64, String> {
-    count(text).and_then(|n| {
-        if n > 0 {
-            Ok(n)
-        } else {
-            Err("must be at least 1".into())
-        }
-    })
+    count(text).and_then(|n| if n > 0 { Ok(n) } else { Err("must be at least 1".into()) })
 }
 
 /// A count above zero that fits 32 bits.
@@ -38,37 +30,20 @@ pub(crate) fn share(text: &str) -> Result<f64, String> {
         Some(digits) => (digits, 0.01),
         None => (text, 1.0),
     };
-    let value: f64 = digits
-        .trim()
-        .parse()
-        .map_err(|_| "not a share; write it like 1% or 0.01".to_string())?;
+    let value: f64 = digits.trim().parse().map_err(|_| "not a share; write it like 1% or 0.01".to_string())?;
     let value = value * unit;
-    if value > 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err("must be above 0".into())
-    }
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be above 0".into()) }
 }
 
 /// A probability strictly between 0 and 1.
 pub(crate) fn probability(text: &str) -> Result<f64, String> {
-    share(text).and_then(|p| {
-        if p < 1.0 {
-            Ok(p)
-        } else {
-            Err("must be below 1 (100 %)".into())
-        }
-    })
+    share(text).and_then(|p| if p < 1.0 { Ok(p) } else { Err("must be below 1 (100 %)".into()) })
 }
 
 /// A length or a duration: finite and above 0.
 pub(crate) fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_string())?;
-    if value > 0.0 && value.is_finite() {
-        Ok(value)
-    } else {
-        Err("must be finite and above 0".into())
-    }
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be finite and above 0".into()) }
 }
 
 /// `NAME=VALUE`.
@@ -81,14 +56,10 @@ pub(crate) fn definition(text: &str) -> Result<(String, String), String> {
 
 /// `WxH`.
 pub(crate) fn size(text: &str) -> Result<[u32; 2], String> {
-    let parsed = text
-        .split_once('x')
-        .and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    let parsed = text.split_once('x').and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
     match parsed {
         Some([w, h])
-            if (1..=65_536).contains(&w)
-                && (1..=65_536).contains(&h)
-                && u64::from(w) * u64::from(h) <= 1 << 28 =>
+            if (1..=65_536).contains(&w) && (1..=65_536).contains(&h) && u64::from(w) * u64::from(h) <= 1 << 28 =>
         {
             Ok([w, h])
         }

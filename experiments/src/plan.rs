@@ -7,9 +7,7 @@ use crate::{Failure, command, loaded::Loaded};
 /// Explains a scene's needs on standard output.
 pub(crate) fn plan(arguments: &command::Plan) -> Result<(), Failure> {
     if arguments.target_error.is_some() {
-        return Err(Failure::usage(
-            "plan --target-error is not built yet: it tells needs alone; leave it out",
-        ));
+        return Err(Failure::usage("plan --target-error is not built yet: it tells needs alone; leave it out"));
     }
     let loaded = Loaded::new(&arguments.scene)?;
     let scene = &loaded.world.scene;

@@ -22,13 +22,8 @@ impl Progress {
             (true, None) => ProgressBar::new_spinner(),
         };
         let style = "{elapsed_precise} {wide_bar} pass {pos} {msg}";
-        bar.set_style(
-            ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
-        Self {
-            bar,
-            target: ends.target_error,
-        }
+        bar.set_style(ProgressStyle::with_template(style).unwrap_or_else(|_| ProgressStyle::default_bar()));
+        Self { bar, target: ends.target_error }
     }
 }
 
@@ -36,11 +31,8 @@ impl Observer for Progress {
     fn pass_done(&self, passes: u64, _elapsed: Duration, error: Option<f64>) {
         self.bar.set_position(passes);
         if let Some(error) = error {
-            let wanted = self.target.map_or(String::new(), |target| {
-                format!(" (wanted {:.3} %)", 100.0 * target)
-            });
-            self.bar
-                .set_message(format!("error {:.3} %{wanted}", 100.0 * error));
+            let wanted = self.target.map_or(String::new(), |target| format!(" (wanted {:.3} %)", 100.0 * target));
+            self.bar.set_message(format!("error {:.3} %{wanted}", 100.0 * error));
         }
     }
 }

@@ -17,12 +17,7 @@ use crate::{
 /// Renders and writes the image.
 pub(crate) fn render(arguments: &command::Render) -> Result<(), Failure> {
     system::start_threads(arguments.options.threads)?;
-    let extension = arguments
-        .output
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or("")
-        .to_ascii_lowercase();
+    let extension = arguments.output.extension().and_then(|e| e.to_str()).unwrap_or("").to_ascii_lowercase();
     if !matches!(extension.as_str(), "exr" | "png") {
         return Err(Failure::usage(format!(
             "-o {}: the image's name must end in .exr or .png",
@@ -30,22 +25,14 @@ pub(crate) fn render(arguments: &command::Render) -> Result<(), Failure> {
         )));
     }
     if arguments.false_colour && extension != "png" {
-        return Err(Failure::usage(
-            "--false-colour makes an image for looking at; give -o a name that ends in .png",
-        ));
+        return Err(Failure::usage("--false-colour makes an image for looking at; give -o a name that ends in .png"));
     }
     crate::image::is_writable(&arguments.output)?;
     let mut loaded = Loaded::new(&arguments.scene)?;
     let file = &arguments.scene.scene;
     loaded.needs_light(file)?;
     let is_camera = |receiver: &Receiver| matches!(receiver, Receiver::Camera(_));
-    let chosen = sensors(
-        &loaded.world.scene,
-        file,
-        arguments.options.sensor.as_deref(),
-        "camera",
-        is_camera,
-    )?[0];
+    let chosen = sensors(&loaded.world.scene, file, arguments.options.sensor.as_deref(), "camera", is_camera)?[0];
     if let Some(size) = arguments.options.size {
         resize(&mut loaded, chosen, size);
     }
@@ -68,30 +55,17 @@ fn resize(loaded: &mut Loaded, sensor: usize, [width, height]: [u32; 2]) {
     }
 }
 
-fn run<const C: usize>(
-    arguments: &command::Render,
-    loaded: &Loaded,
-    sensor: usize,
-) -> Result<Layers, Failure> {
+fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usize) -> Result<Layers, Failure> {
     let options = &arguments.options;
     let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
     let mut settings = options.settings(&loaded.world.scene)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
-    let session = Session {
-        world,
-        lamps: &lamps,
-        needs,
-        settings,
-        confidence,
-        rms: true,
-    };
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: true };
     let schedule = schedule(&session, &options.wanted(), cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
-    let outcome = session
-        .run(&cells, &schedule, &source, &Progress::new(&schedule.ends))
-        .map_err(read_failure)?;
+    let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn_of_trapped_light(outcome.ledger.as_ref());
     if let Some(doubt) = doubt(&world.scene, &settings, needs) {
         eprintln!("warning: this image is not certified: {doubt}");
@@ -99,25 +73,13 @@ fn run<const C: usize>(
     let unit = cells[0].quantity().in_system(options.unit_system()).unit();
     let film = world.scene.sensors[sensor].film;
     let attributes = vec![
-        (
-            "scene".to_string(),
-            arguments.scene.scene.display().to_string(),
-        ),
-        (
-            "command".to_string(),
-            fixed_command("render", &arguments.scene, options, &settings, &outcome),
-        ),
+        ("scene".to_string(), arguments.scene.scene.display().to_string()),
+        ("command".to_string(), fixed_command("render", &arguments.scene, options, &settings, &outcome)),
         ("seed".to_string(), settings.seed.to_string()),
         ("units".to_string(), unit.symbol().to_string()),
         ("confidence".to_string(), confidence.to_string()),
     ];
-    Ok(layers(
-        &outcome,
-        film,
-        confidence,
-        unit.symbol(),
-        attributes,
-    ))
+    Ok(layers(&outcome, film, confidence, unit.symbol(), attributes))
 }
 
 fn layers<const C: usize>(
@@ -127,11 +89,9 @@ fn layers<const C: usize>(
     unit: &str,
     attributes: Vec<(String, String)>,
 ) -> Layers {
-    let quantile =
-        (outcome.passes > 1).then(|| student_t_quantile(confidence, (outcome.passes - 1) as f64));
+    let quantile = (outcome.passes > 1).then(|| student_t_quantile(confidence, (outcome.passes - 1) as f64));
     let image = |of: &dyn Fn(usize, usize) -> f64| {
-        let pixel =
-            |cell: usize| std::array::from_fn(|c| of(cell, if C == 1 { 0 } else { c }) as f32);
+        let pixel = |cell: usize| std::array::from_fn(|c| of(cell, if C == 1 { 0 } else { c }) as f32);
         Image {
             width: film.width as usize,
             height: film.height as usize,
@@ -145,11 +105,7 @@ fn layers<const C: usize>(
             Some(_) => outcome.cells[cell].bias_bound(c, confidence),
             None => f64::NAN,
         }),
-        photons_used: outcome
-            .cells
-            .iter()
-            .map(|cell| cell.photons as f32)
-            .collect(),
+        photons_used: outcome.cells.iter().map(|cell| cell.photons as f32).collect(),
         unit: unit.into(),
         attributes,
     }

@@ -26,14 +26,7 @@ pub(crate) fn threads() -> u32 {
 /// The processor's model, never the machine's name.
 pub(crate) fn processor() -> String {
     let text = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model = text.lines().find_map(|line| {
-        line.strip_prefix("model name")?
-            .split_once(':')
-            .map(|(_, name)| name.trim())
-    });
-    format!(
-        "{} ({})",
-        model.unwrap_or("unknown processor"),
-        std::env::consts::ARCH
-    )
+    let model =
+        text.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':').map(|(_, name)| name.trim()));
+    format!("{} ({})", model.unwrap_or("unknown processor"), std::env::consts::ARCH)
 }

@@ -40,9 +40,7 @@ pub(crate) fn svg(width: f64, height: f64, title: &str, draw: impl FnOnce(&Canva
     let units = |pixels: f64| (pixels * UNITS).round() as u32;
     {
         let backend = SVGBackend::with_string(&mut text, (units(width), units(height)));
-        let canvas = Canvas {
-            area: backend.into_drawing_area(),
-        };
+        let canvas = Canvas { area: backend.into_drawing_area() };
         draw(&canvas);
         done(canvas.area.present());
     }
@@ -61,67 +59,36 @@ pub(crate) fn svg(width: f64, height: f64, title: &str, draw: impl FnOnce(&Canva
 impl Canvas<'_> {
     /// An open line.
     pub(crate) fn line(&self, spots: &[Spot], colour: RGBColor, width: f64) {
-        done(
-            self.area
-                .draw(&PathElement::new(on_grid(spots), stroke(colour, width))),
-        );
+        done(self.area.draw(&PathElement::new(on_grid(spots), stroke(colour, width))));
     }
 
     /// A dashed line; lengths in pixels.
     pub(crate) fn dashed(&self, spots: &[Spot], colour: RGBColor, width: f64, dash: f64, gap: f64) {
         let (dash, gap) = ((dash * UNITS) as i32, (gap * UNITS) as i32);
-        done(self.area.draw(&DashedPathElement::new(
-            on_grid(spots),
-            dash,
-            gap,
-            stroke(colour, width),
-        )));
+        done(self.area.draw(&DashedPathElement::new(on_grid(spots), dash, gap, stroke(colour, width))));
     }
 
     /// A filled shape; opacity in [0, 1].
     pub(crate) fn shape(&self, spots: &[Spot], colour: RGBColor, opacity: f64) {
-        done(
-            self.area
-                .draw(&Polygon::new(on_grid(spots), colour.mix(opacity).filled())),
-        );
+        done(self.area.draw(&Polygon::new(on_grid(spots), colour.mix(opacity).filled())));
     }
 
     /// A filled disc.
     pub(crate) fn disc(&self, at: Spot, radius: f64, colour: RGBColor) {
-        done(self.area.draw(&Circle::new(
-            unit(at),
-            (radius * UNITS).round() as i32,
-            colour.filled(),
-        )));
+        done(self.area.draw(&Circle::new(unit(at), (radius * UNITS).round() as i32, colour.filled())));
     }
 
     /// One line of text, `size` pixels high.
-    pub(crate) fn text(
-        &self,
-        text: &str,
-        at: Spot,
-        size: f64,
-        anchor: Anchor,
-        colour: RGBColor,
-        bold: bool,
-    ) {
+    pub(crate) fn text(&self, text: &str, at: Spot, size: f64, anchor: Anchor, colour: RGBColor, bold: bool) {
         let horizontal = match anchor {
             Anchor::Start => HPos::Left,
             Anchor::Middle => HPos::Center,
             Anchor::End => HPos::Right,
         };
-        let weight = if bold {
-            FontStyle::Bold
-        } else {
-            FontStyle::Normal
-        };
-        let style = TextStyle::from(
-            ("sans-serif", size * UNITS * FONT_SCALE)
-                .into_font()
-                .style(weight),
-        )
-        .color(&colour)
-        .pos(Pos::new(horizontal, VPos::Center));
+        let weight = if bold { FontStyle::Bold } else { FontStyle::Normal };
+        let style = TextStyle::from(("sans-serif", size * UNITS * FONT_SCALE).into_font().style(weight))
+            .color(&colour)
+            .pos(Pos::new(horizontal, VPos::Center));
         done(self.area.draw(&Text::new(text.to_owned(), unit(at), style)));
     }
 }
@@ -144,7 +111,5 @@ fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
 }
 
 fn escape(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }

@@ -15,11 +15,7 @@ fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {
-        let padded = [
-            chunk[0],
-            chunk.get(1).copied().unwrap_or(0),
-            chunk.get(2).copied().unwrap_or(0),
-        ];
+        let padded = [chunk[0], chunk.get(1).copied().unwrap_or(0), chunk.get(2).copied().unwrap_or(0)];
         let bits = u32::from_be_bytes([0, padded[0], padded[1], padded[2]]);
         for i in 0..4 {
             let digit = DIGITS[(bits >> (18 - 6 * i)) as usize & 63];
@@ -52,11 +48,7 @@ mod tests {
 
     #[test]
     fn other_files_are_refused() {
-        assert!(
-            data_uri(b"\x89PNG\r\n")
-                .unwrap()
-                .starts_with("data:image/png;base64,")
-        );
+        assert!(data_uri(b"\x89PNG\r\n").unwrap().starts_with("data:image/png;base64,"));
         assert_eq!(data_uri(b"<svg"), None);
     }
 }

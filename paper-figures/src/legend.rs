@@ -40,18 +40,10 @@ impl Legend {
     /// Entries in the order of the series, in as few rows of `width` pixels as they need; with `cut`, the meaning of
     /// the open arrow.
     pub(crate) fn new(figure: &FigureData, styles: &[Style], cut: bool, width: f64) -> Self {
-        let mut legend = Legend {
-            entries: Vec::new(),
-            rows: 0,
-        };
+        let mut legend = Legend { entries: Vec::new(), rows: 0 };
         let mut column = 0.0;
         for (series, &style) in figure.series.iter().zip(styles) {
-            legend.add(
-                Key::Series(series.kind, style),
-                &series.label,
-                &mut column,
-                width,
-            );
+            legend.add(Key::Series(series.kind, style), &series.label, &mut column, width);
         }
         if cut {
             legend.add(Key::Cut, "goes on below the axis", &mut column, width);
@@ -67,22 +59,14 @@ impl Legend {
         if lines.is_empty() {
             lines.push(String::new());
         }
-        let widest = lines
-            .iter()
-            .map(|line| text::width(line, SIZE))
-            .fold(0.0, f64::max);
+        let widest = lines.iter().map(|line| text::width(line, SIZE)).fold(0.0, f64::max);
         if *column > 0.0 && *column + KEY + widest > width {
             self.rows += 1;
             *column = 0.0;
         }
         let several = lines.len() - 1;
         for (i, text) in lines.into_iter().enumerate() {
-            self.entries.push(Entry {
-                key: (i == 0).then_some(key),
-                text,
-                column: *column,
-                row: self.rows + i,
-            });
+            self.entries.push(Entry { key: (i == 0).then_some(key), text, column: *column, row: self.rows + i });
         }
         self.rows += several;
         *column += KEY + widest + GAP;
@@ -96,10 +80,7 @@ impl Legend {
     /// Draws it with its top left corner at `corner`.
     pub(crate) fn draw(&self, canvas: &Canvas<'_>, corner: Spot) {
         for entry in &self.entries {
-            let (x, y) = (
-                corner.0 + entry.column,
-                corner.1 + (entry.row as f64 + 0.5) * ROW,
-            );
+            let (x, y) = (corner.0 + entry.column, corner.1 + (entry.row as f64 + 0.5) * ROW);
             match entry.key {
                 Some(Key::Series(kind, style)) => draw_sample(canvas, (x, y), kind, style),
                 Some(Key::Cut) => {
@@ -122,13 +103,7 @@ fn draw_sample(canvas: &Canvas<'_>, (x, y): Spot, kind: SeriesKind, style: Style
         }
         SeriesKind::Predicted => canvas.line(&[(x, y), (x + 26.0, y)], style.colour, 2.4),
         SeriesKind::Reference => {
-            canvas.dashed(
-                &[(x, y), (x + 26.0, y)],
-                style.colour,
-                2.0,
-                style.dash.0,
-                style.dash.1,
-            );
+            canvas.dashed(&[(x, y), (x + 26.0, y)], style.colour, 2.0, style.dash.0, style.dash.1);
         }
     }
 }
@@ -136,19 +111,6 @@ fn draw_sample(canvas: &Canvas<'_>, (x, y): Spot, kind: SeriesKind, style: Style
 /// An open arrow head with its tip at `tip`, pointing down: what it ends goes on below the axis.
 pub(crate) fn draw_arrow(canvas: &Canvas<'_>, tip: Spot, colour: plotters::style::RGBColor) {
     let (x, y) = tip;
-    canvas.shape(
-        &[(x - 4.5, y - 8.0), (x + 4.5, y - 8.0), tip],
-        crate::style::PAPER,
-        1.0,
-    );
-    canvas.line(
-        &[
-            (x - 4.5, y - 8.0),
-            tip,
-            (x + 4.5, y - 8.0),
-            (x - 4.5, y - 8.0),
-        ],
-        colour,
-        1.4,
-    );
+    canvas.shape(&[(x - 4.5, y - 8.0), (x + 4.5, y - 8.0), tip], crate::style::PAPER, 1.0);
+    canvas.line(&[(x - 4.5, y - 8.0), tip, (x + 4.5, y - 8.0), (x - 4.5, y - 8.0)], colour, 1.4);
 }

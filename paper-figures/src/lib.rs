@@ -19,12 +19,15 @@
 //! ```
 #![forbid(unsafe_code)]
 
+mod axes;
 mod canvas;
 mod chart;
 mod data_uri;
 mod error;
 mod legend;
 mod number;
+mod page;
+mod plot;
 mod report;
 mod scale;
 mod style;

@@ -5,11 +5,7 @@ pub fn uncertain_text(value: f64, half_width: f64) -> String {
     let Some(shape) = Shape::of(value, half_width) else {
         return plain_text(value);
     };
-    shape.wrap(&format!(
-        "{} ± {}",
-        shape.digits(value),
-        shape.digits(half_width)
-    ))
+    shape.wrap(&format!("{} ± {}", shape.digits(value), shape.digits(half_width)))
 }
 
 /// `value ± half width` for a symmetric interval, `value [low, high]` for another, digits by the half width.
@@ -22,12 +18,7 @@ pub fn interval_text(value: f64, low: f64, high: f64) -> String {
     let Some(shape) = Shape::of(value, half) else {
         return plain_text(value);
     };
-    shape.wrap(&format!(
-        "{} [{}, {}]",
-        shape.digits(value),
-        shape.digits(low),
-        shape.digits(high)
-    ))
+    shape.wrap(&format!("{} [{}, {}]", shape.digits(value), shape.digits(low), shape.digits(high)))
 }
 
 /// A number with nothing to round it to: at most six significant digits, no trailing zeros.
@@ -51,10 +42,7 @@ pub(crate) fn power_of_ten(exponent: i32) -> String {
         '3' => '³',
         digit => char::from_u32('⁰' as u32 + (digit as u32 - '0' as u32)).unwrap_or(digit),
     };
-    format!(
-        "10{}",
-        exponent.to_string().chars().map(raised).collect::<String>()
-    )
+    format!("10{}", exponent.to_string().chars().map(raised).collect::<String>())
 }
 
 /// `mantissa × 10^exponent`.
@@ -64,21 +52,13 @@ pub(crate) fn times_power(mantissa: &str, exponent: i32) -> String {
 
 /// Removes the zeros at the end of a decimal fraction.
 pub(crate) fn trimmed(text: &str) -> String {
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text.to_owned()
-    }
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
 }
 
 /// The typographic minus; zero has none.
 pub(crate) fn minus(text: &str) -> String {
     let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    if zero {
-        text.trim_start_matches('-').to_owned()
-    } else {
-        text.replace('-', "−")
-    }
+    if zero { text.trim_start_matches('-').to_owned() } else { text.replace('-', "−") }
 }
 
 /// How an uncertain number is written: a common power of ten, and where it is rounded.
@@ -95,17 +75,10 @@ impl Shape {
             return None;
         }
         let largest = value.abs().max(half_width);
-        let power = if (1e-3..1e6).contains(&largest) {
-            0
-        } else {
-            exponent(largest)
-        };
+        let power = if (1e-3..1e6).contains(&largest) { 0 } else { exponent(largest) };
         // The exponent after rounding to two digits: 0.0996 becomes 0.10.
         let rounded: f64 = format!("{half_width:.1e}").parse().unwrap_or(half_width);
-        Some(Shape {
-            power,
-            place: exponent(rounded) - 1 - power,
-        })
+        Some(Shape { power, place: exponent(rounded) - 1 - power })
     }
 
     fn digits(&self, x: f64) -> String {
@@ -128,9 +101,7 @@ impl Shape {
 /// The power of ten of the first digit.
 fn exponent(x: f64) -> i32 {
     let text = format!("{x:e}");
-    text.split_once('e')
-        .and_then(|(_, e)| e.parse().ok())
-        .unwrap_or(0)
+    text.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0)
 }
 
 #[cfg(test)]
@@ -166,10 +137,7 @@ mod tests {
     #[test]
     fn lopsided_intervals_show_their_ends() {
         assert_eq!(interval_text(1.0, 0.9, 1.1), "1.00 ± 0.10");
-        assert_eq!(
-            interval_text(0.14, 0.0581917, 0.2673961),
-            "0.14 [0.06, 0.27]"
-        );
+        assert_eq!(interval_text(0.14, 0.0581917, 0.2673961), "0.14 [0.06, 0.27]");
         assert_eq!(interval_text(1.0, 1.0, 1.0), "1");
     }
 }

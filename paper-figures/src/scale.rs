@@ -27,13 +27,7 @@ impl Scale {
         let to_zero = high <= 0.0 && high >= 0.3 * low;
         low = if from_zero { 0.0 } else { low - room };
         high = if to_zero { 0.0 } else { high + room };
-        Scale {
-            log: false,
-            low,
-            high,
-            ticks: ticks::linear(low, high, wanted),
-            minor: Vec::new(),
-        }
+        Scale { log: false, low, high, ticks: ticks::linear(low, high, wanted), minor: Vec::new() }
     }
 
     /// A logarithmic axis over all `values` (at least one, all above zero), a little wider.
@@ -42,13 +36,7 @@ impl Scale {
         let room = (high / low).powf(0.05).max(1.1);
         let (low, high) = (low / room, high * room);
         let ticks = ticks::logarithmic(low, high, wanted);
-        Scale {
-            log: true,
-            low,
-            high,
-            ticks,
-            minor: ticks::between_decades(low, high),
-        }
+        Scale { log: true, low, high, ticks, minor: ticks::between_decades(low, high) }
     }
 
     /// Zero at the low end, one at the high end.
@@ -67,11 +55,7 @@ impl Scale {
 }
 
 fn ends(values: &[f64]) -> (f64, f64) {
-    values
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| {
-            (low.min(v), high.max(v))
-        })
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &v| (low.min(v), high.max(v)))
 }
 
 #[cfg(test)]

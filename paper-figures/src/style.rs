@@ -36,13 +36,7 @@ pub(crate) enum Mark {
     Wedge,
 }
 
-const MARKS: [Mark; 5] = [
-    Mark::Disc,
-    Mark::Square,
-    Mark::Triangle,
-    Mark::Diamond,
-    Mark::Wedge,
-];
+const MARKS: [Mark; 5] = [Mark::Disc, Mark::Square, Mark::Triangle, Mark::Diamond, Mark::Wedge];
 
 /// How one series is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,11 +71,7 @@ pub(crate) fn styles(figure: &FigureData) -> Vec<Style> {
         SeriesKind::Predicted => {
             p += 1;
             let first = if measured == predicted { 0 } else { measured };
-            let colour = if predicted == 1 {
-                INK
-            } else {
-                COLOURS[(first + p - 1) % COLOURS.len()]
-            };
+            let colour = if predicted == 1 { INK } else { COLOURS[(first + p - 1) % COLOURS.len()] };
             style(colour, 0, 0)
         }
         SeriesKind::Reference => {
@@ -89,12 +79,7 @@ pub(crate) fn styles(figure: &FigureData) -> Vec<Style> {
             style(RGBColor(100, 100, 100), 0, r - 1)
         }
     };
-    figure
-        .series
-        .iter()
-        .map(|series| series.kind)
-        .map(one)
-        .collect()
+    figure.series.iter().map(|series| series.kind).map(one).collect()
 }
 
 impl Mark {
@@ -103,10 +88,8 @@ impl Mark {
         for (radius, colour) in [(radius + 1.2, PAPER), (radius, colour)] {
             match self.corners() {
                 Some(corners) => {
-                    let spots: Vec<Spot> = corners
-                        .iter()
-                        .map(|(x, y)| (at.0 + x * radius, at.1 + y * radius))
-                        .collect();
+                    let spots: Vec<Spot> =
+                        corners.iter().map(|(x, y)| (at.0 + x * radius, at.1 + y * radius)).collect();
                     canvas.shape(&spots, colour, 1.0);
                 }
                 None => canvas.disc(at, radius, colour),

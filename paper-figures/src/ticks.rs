@@ -26,13 +26,7 @@ pub(crate) fn linear(low: f64, high: f64, wanted: usize) -> Vec<Tick> {
             times_power(&trimmed(&format!("{:.6}", x / 10f64.powi(power))), power)
         }
     };
-    (first..=last)
-        .map(|i| i as f64 * step)
-        .map(|at| Tick {
-            at,
-            label: label(at),
-        })
-        .collect()
+    (first..=last).map(|i| i as f64 * step).map(|at| Tick { at, label: label(at) }).collect()
 }
 
 /// Decades in [low, high]; 1, 2 and 5 of each where there are few; every n-th where there are many.
@@ -46,21 +40,10 @@ pub(crate) fn logarithmic(low: f64, high: f64, wanted: usize) -> Vec<Tick> {
             }
             fine
         }
-        n => decades
-            .into_iter()
-            .rev()
-            .step_by(n.div_ceil(wanted))
-            .rev()
-            .collect(),
+        n => decades.into_iter().rev().step_by(n.div_ceil(wanted)).rev().collect(),
     };
     let plain = values.iter().all(|v| (0.9e-3..1.1e4).contains(v));
-    values
-        .into_iter()
-        .map(|at| Tick {
-            at,
-            label: log_label(at, plain),
-        })
-        .collect()
+    values.into_iter().map(|at| Tick { at, label: log_label(at, plain) }).collect()
 }
 
 /// Unlabelled ticks between the decades.
@@ -75,9 +58,7 @@ pub(crate) fn between_decades(low: f64, high: f64) -> Vec<f64> {
 fn steps(low: f64, high: f64, mantissas: &[f64]) -> impl Iterator<Item = f64> {
     let decades = low.log10().floor() as i32..=high.log10().ceil() as i32;
     let inside = move |v: &f64| (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(v);
-    decades
-        .flat_map(move |d| mantissas.iter().map(move |m| m * 10f64.powi(d)))
-        .filter(inside)
+    decades.flat_map(move |d| mantissas.iter().map(move |m| m * 10f64.powi(d))).filter(inside)
 }
 
 fn log_label(at: f64, plain: bool) -> String {
@@ -97,10 +78,7 @@ fn trimmed_to(x: f64, decimals: usize) -> String {
 fn nice_step(rough: f64) -> f64 {
     let power = 10f64.powf(rough.log10().floor());
     let factor = rough / power;
-    let nice = [1.0, 2.0, 5.0]
-        .into_iter()
-        .find(|n| factor <= n * 1.000_001)
-        .unwrap_or(10.0);
+    let nice = [1.0, 2.0, 5.0].into_iter().find(|n| factor <= n * 1.000_001).unwrap_or(10.0);
     nice * power
 }
 
@@ -109,11 +87,7 @@ mod tests {
     use super::*;
 
     fn labels(ticks: Vec<Tick>) -> String {
-        ticks
-            .into_iter()
-            .map(|t| t.label)
-            .collect::<Vec<_>>()
-            .join(" ")
+        ticks.into_iter().map(|t| t.label).collect::<Vec<_>>().join(" ")
     }
 
     #[test]
@@ -121,10 +95,7 @@ mod tests {
         assert_eq!(labels(linear(0.0, 1.04, 6)), "0.0 0.2 0.4 0.6 0.8 1.0");
         assert_eq!(labels(linear(-13.0, 47.0, 6)), "−10 0 10 20 30 40");
         assert_eq!(labels(linear(0.0, 3.1e6, 4)), "0 1×10⁶ 2×10⁶ 3×10⁶");
-        assert_eq!(
-            labels(linear(0.24, 0.262, 5)),
-            "0.240 0.245 0.250 0.255 0.260"
-        );
+        assert_eq!(labels(linear(0.24, 0.262, 5)), "0.240 0.245 0.250 0.255 0.260");
     }
 
     #[test]
@@ -132,10 +103,7 @@ mod tests {
         assert_eq!(labels(logarithmic(0.008, 12.0, 7)), "0.01 0.1 1 10");
         assert_eq!(labels(logarithmic(8e2, 1.2e6, 7)), "10³ 10⁴ 10⁵ 10⁶");
         assert_eq!(labels(logarithmic(15.0, 450.0, 7)), "20 50 100 200");
-        assert_eq!(
-            labels(logarithmic(1.5e6, 4.5e7, 7)),
-            "2×10⁶ 5×10⁶ 10⁷ 2×10⁷"
-        );
+        assert_eq!(labels(logarithmic(1.5e6, 4.5e7, 7)), "2×10⁶ 5×10⁶ 10⁷ 2×10⁷");
         assert_eq!(labels(logarithmic(1.9, 2.3, 7)), "1.9 2.0 2.1 2.2 2.3");
         assert_eq!(logarithmic(1e-15, 1e3, 7).len(), 7);
     }

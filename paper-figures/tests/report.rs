@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use photonlab_measure::{
-    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record, Run,
-    Series, SeriesKind, Verdict,
+    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record, Run, Series, SeriesKind,
+    Verdict,
 };
 use photonlab_paper_figures::{ReportEntry, ReportError, report};
 
@@ -34,28 +34,14 @@ fn record(claim: &str, verdict: Verdict) -> Record {
         },
         seeds: (1..=16).collect(),
         comparisons: vec![
-            Comparison::judge(
-                "ratio to truth",
-                "1",
-                Expected::exact(0.25, "A4"),
-                Some(measured),
-            ),
-            Comparison::judge(
-                "illuminance",
-                "lx",
-                Expected::within(700.0, 20.0, "D4"),
-                Some(measured),
-            )
-            .with_note("far"),
+            Comparison::judge("ratio to truth", "1", Expected::exact(0.25, "A4"), Some(measured)),
+            Comparison::judge("illuminance", "lx", Expected::within(700.0, 20.0, "D4"), Some(measured))
+                .with_note("far"),
             Comparison::judge("another", "lx", Expected::exact(1.0, "D4"), None),
         ],
         rows: vec![],
         figures: vec![figure("ratio"), figure("noise")],
-        images: vec![ImageEntry {
-            title: "Plane".into(),
-            path: "plane.png".into(),
-            caption: "Even.".into(),
-        }],
+        images: vec![ImageEntry { title: "Plane".into(), path: "plane.png".into(), caption: "Even.".into() }],
         verdict,
         reason: "it reads a quarter of the truth".into(),
     }
@@ -78,42 +64,21 @@ fn figure(id: &str) -> FigureData {
 
 fn page(records: &[Record]) -> String {
     let images = BTreeMap::from([("plane.png".to_owned(), PNG.to_vec())]);
-    let entries: Vec<_> = records
-        .iter()
-        .map(|record| ReportEntry {
-            record,
-            images: images.clone(),
-        })
-        .collect();
+    let entries: Vec<_> = records.iter().map(|record| ReportEntry { record, images: images.clone() }).collect();
     report(&entries).unwrap()
 }
 
 #[test]
 fn the_page_is_self_contained_and_well_formed() {
-    let page = page(&[
-        record("sphere-area", Verdict::Holds),
-        record("knn-bias", Verdict::DoesNotHold),
-    ]);
-    for outside in [
-        "http:", "https:", "//cdn", "<script", "<link", "@import", "url(",
-    ] {
+    let page = page(&[record("sphere-area", Verdict::Holds), record("knn-bias", Verdict::DoesNotHold)]);
+    for outside in ["http:", "https:", "//cdn", "<script", "<link", "@import", "url("] {
         assert!(!page.contains(outside), "{outside}");
     }
-    let options = roxmltree::ParsingOptions {
-        allow_dtd: true,
-        ..Default::default()
-    };
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
     let document = roxmltree::Document::parse_with_options(&page, options).unwrap();
-    let attribute = |name| {
-        document
-            .descendants()
-            .filter_map(move |n| n.attribute(name))
-    };
+    let attribute = |name| document.descendants().filter_map(move |n| n.attribute(name));
     for source in attribute("src").chain(attribute("href")) {
-        assert!(
-            source.starts_with("data:") || source.starts_with('#'),
-            "{source}"
-        );
+        assert!(source.starts_with("data:") || source.starts_with('#'), "{source}");
     }
     let mut ids: Vec<&str> = attribute("id").collect();
     for target in attribute("href") {
@@ -121,30 +86,17 @@ fn the_page_is_self_contained_and_well_formed() {
     }
     ids.sort_unstable();
     assert!(ids.windows(2).all(|pair| pair[0] != pair[1]), "{ids:?}");
-    assert!(
-        page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">")
-            && page.contains("width=device-width")
-    );
+    assert!(page.starts_with("<!DOCTYPE html>\n<html lang=\"en\">") && page.contains("width=device-width"));
 }
 
 #[test]
 fn every_figure_and_picture_stands_once() {
-    let page = page(&[
-        record("sphere-area", Verdict::Holds),
-        record("knn-bias", Verdict::DoesNotHold),
-    ]);
+    let page = page(&[record("sphere-area", Verdict::Holds), record("knn-bias", Verdict::DoesNotHold)]);
     for claim in ["sphere-area", "knn-bias"] {
         for figure in ["ratio", "noise"] {
-            assert_eq!(
-                page.matches(&format!("id=\"{claim}--{figure}\"")).count(),
-                1
-            );
+            assert_eq!(page.matches(&format!("id=\"{claim}--{figure}\"")).count(), 1);
         }
-        assert_eq!(
-            page.matches(&format!("<code>{claim}-quick-1</code>"))
-                .count(),
-            1
-        );
+        assert_eq!(page.matches(&format!("<code>{claim}-quick-1</code>")).count(), 1);
     }
     assert_eq!(page.matches("<svg").count(), 4);
     assert_eq!(page.matches("Caption of noise.").count(), 2);
@@ -154,20 +106,11 @@ fn every_figure_and_picture_stands_once() {
 #[test]
 fn every_verdict_is_in_words_and_failures_stand_beside_passes() {
     let claims = ["a", "b", "c", "d", "e"];
-    let records: Vec<_> = claims
-        .iter()
-        .zip(Verdict::ALL)
-        .map(|(claim, verdict)| record(claim, verdict))
-        .collect();
+    let records: Vec<_> = claims.iter().zip(Verdict::ALL).map(|(claim, verdict)| record(claim, verdict)).collect();
     let page = page(&records);
     for verdict in Verdict::ALL {
         // In the tally, in the table and at the claim.
-        assert_eq!(
-            page.matches(&format!("</span> {}</span>", verdict.words()))
-                .count(),
-            3,
-            "{verdict}"
-        );
+        assert_eq!(page.matches(&format!("</span> {}</span>", verdict.words())).count(), 3, "{verdict}");
     }
     assert!(page.find("id=\"b\"").unwrap() < page.find("id=\"c\"").unwrap());
 }
@@ -175,15 +118,8 @@ fn every_verdict_is_in_words_and_failures_stand_beside_passes() {
 #[test]
 fn numbers_are_rounded_and_text_is_escaped() {
     let page = page(&[record("sphere-area", Verdict::Holds)]);
-    for text in [
-        "0.2502 ± 0.0011",
-        "700 ± 20</span> lx",
-        "95 % interval",
-        "1 of 2",
-        "1 to 16",
-        "not measured",
-        "✗ no",
-    ] {
+    for text in ["0.2502 ± 0.0011", "700 ± 20</span> lx", "95 % interval", "1 of 2", "1 to 16", "not measured", "✗ no"]
+    {
         assert!(page.contains(text), "{text}");
     }
     assert!(page.contains("&lt;sphere-area&gt;") && page.contains("4 pi r^2) &amp; nothing"));
@@ -192,37 +128,16 @@ fn numbers_are_rounded_and_text_is_escaped() {
 #[test]
 fn what_is_missing_is_an_error() {
     let one = record("one", Verdict::Holds);
-    let bare = ReportEntry {
-        record: &one,
-        images: BTreeMap::new(),
-    };
-    assert!(matches!(
-        report(std::slice::from_ref(&bare)),
-        Err(ReportError::MissingImage { .. })
-    ));
-    let odd = ReportEntry {
-        record: &one,
-        images: BTreeMap::from([("plane.png".into(), b"GIF89a".to_vec())]),
-    };
-    assert!(matches!(
-        report(&[odd]),
-        Err(ReportError::UnknownImage { .. })
-    ));
-    assert!(matches!(
-        report(&[bare.clone(), bare]),
-        Err(ReportError::Twice { .. })
-    ));
-    assert!(matches!(
-        ReportEntry::load(&one, std::path::Path::new("nowhere")),
-        Err(ReportError::Read { .. })
-    ));
+    let bare = ReportEntry { record: &one, images: BTreeMap::new() };
+    assert!(matches!(report(std::slice::from_ref(&bare)), Err(ReportError::MissingImage { .. })));
+    let odd = ReportEntry { record: &one, images: BTreeMap::from([("plane.png".into(), b"GIF89a".to_vec())]) };
+    assert!(matches!(report(&[odd]), Err(ReportError::UnknownImage { .. })));
+    assert!(matches!(report(&[bare.clone(), bare]), Err(ReportError::Twice { .. })));
+    assert!(matches!(ReportEntry::load(&one, std::path::Path::new("nowhere")), Err(ReportError::Read { .. })));
 
     let mut empty = record("two", Verdict::Holds);
     empty.images.clear();
     empty.figures[0].series.clear();
-    let entry = ReportEntry {
-        record: &empty,
-        images: BTreeMap::new(),
-    };
+    let entry = ReportEntry { record: &empty, images: BTreeMap::new() };
     assert!(matches!(report(&[entry]), Err(ReportError::Figure { .. })));
 }

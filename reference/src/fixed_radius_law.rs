@@ -70,9 +70,7 @@ mod tests {
             }
             empty.add(f64::from(arrivals == 0.0));
         }
-        count
-            .iter()
-            .for_each(|c| c.must_agree("mean of the estimate", 1.0));
+        count.iter().for_each(|c| c.must_agree("mean of the estimate", 1.0));
         square[0].must_agree("binomial variance", binomial_variance(photons, p));
         square[1].must_agree("Poisson variance", poisson_variance(mu));
         square[2].must_agree("unequal flux", unequal_flux_variance(mu, 1.0, 4.0 / 3.0));
@@ -84,8 +82,7 @@ mod tests {
     fn kernel_factors_are_their_integrals() {
         let rule = crate::quadrature::Gauss::new(12);
         for n in 0..5 {
-            let moment =
-                |power: i32| rule.integrate(0.0, 1.0, |x| 2.0 * x * (1.0 - x * x).powi(n * power));
+            let moment = |power: i32| rule.integrate(0.0, 1.0, |x| 2.0 * x * (1.0 - x * x).powi(n * power));
             let c = moment(2) / moment(1).powi(2);
             assert!((kernel_variance_factor(n as u32) - c).abs() < 1e-12, "{n}");
         }

@@ -21,18 +21,9 @@ pub struct Furnace<const C: usize> {
 impl<const C: usize> Furnace<C> {
     /// Walls that emit `radiance` (W/(m^2 sr) or cd/m^2) and have a `reflectance` in `[0, 1)`.
     pub fn new(radiance: Colour<C>, reflectance: Colour<C>) -> Result<Self, OutOfRange> {
-        radiance
-            .0
-            .into_iter()
-            .try_for_each(|x| require_positive("radiance", x))?;
-        reflectance
-            .0
-            .into_iter()
-            .try_for_each(|x| require_albedo("reflectance", x))?;
-        Ok(Furnace {
-            radiance,
-            reflectance,
-        })
+        radiance.0.into_iter().try_for_each(|x| require_positive("radiance", x))?;
+        reflectance.0.into_iter().try_for_each(|x| require_albedo("reflectance", x))?;
+        Ok(Furnace { radiance, reflectance })
     }
 
     /// The emitted exitance `M = pi L_e`, in W/m^2 or lm/m^2.
@@ -84,10 +75,7 @@ mod tests {
             let sum: f64 = (0..400).map(|n| f.bounce(n)[c]).sum();
             assert!((sum / f.irradiance()[c] - 1.0).abs() < 1e-13);
         }
-        assert_eq!(
-            f.irradiance().0.map(|e| e / PI),
-            [1.0, 4.0, 5.000000000000001]
-        );
+        assert_eq!(f.irradiance().0.map(|e| e / PI), [1.0, 4.0, 5.000000000000001]);
     }
 
     /// Random paths in a room that is not a cube, absorbed with probability `1 - rho`: each meets `1 / (1 - rho)` walls.
@@ -115,16 +103,10 @@ mod tests {
             normal[from] = 1.0;
             let d = random.cosine_around(normal);
             let distance = |i: usize| {
-                if d[i] > 0.0 {
-                    (size[i] - p[i]) / d[i]
-                } else {
-                    -p[i] / d[i]
-                }
+                if d[i] > 0.0 { (size[i] - p[i]) / d[i] } else { -p[i] / d[i] }
             };
             let to = (0..3).filter(|&i| i != from || d[i] > 0.0);
-            let to = to
-                .min_by(|&i, &j| distance(i).total_cmp(&distance(j)))
-                .expect("closed");
+            let to = to.min_by(|&i, &j| distance(i).total_cmp(&distance(j))).expect("closed");
             (0..3).for_each(|i| arrived[i].add(f64::from(i == to)));
         }
         for axis in 0..3 {
@@ -136,10 +118,7 @@ mod tests {
     fn the_scene_file_carries_the_parameters() {
         let xml = furnace().cube_xml(0.5, &[[0.0, 0.0], [0.5, 0.9]]);
         mitsuba::assert_balanced(&xml);
-        assert!(
-            xml.contains("0, 0.5, 0.9") && xml.contains("1, 2, 0.5"),
-            "{xml}"
-        );
+        assert!(xml.contains("0, 0.5, 0.9") && xml.contains("1, 2, 0.5"), "{xml}");
         assert!(xml.contains("target=\"0.5 0.25 0.45\""), "{xml}");
     }
 }

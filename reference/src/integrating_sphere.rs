@@ -27,33 +27,13 @@ pub struct IntegratingSphere<const C: usize> {
 impl<const C: usize> IntegratingSphere<C> {
     /// A sphere of `radius` (m) whose lamp at `source` (m, strictly inside) sends out `flux` (W or lm); the wall's
     /// `reflectance` is in `[0, 1)` in every channel.
-    pub fn new(
-        radius: f64,
-        source: [f64; 3],
-        flux: Colour<C>,
-        reflectance: Colour<C>,
-    ) -> Result<Self, OutOfRange> {
+    pub fn new(radius: f64, source: [f64; 3], flux: Colour<C>, reflectance: Colour<C>) -> Result<Self, OutOfRange> {
         require_positive("radius", radius)?;
         let off_centre = length(source);
-        require(
-            off_centre < radius,
-            "distance of the source",
-            off_centre,
-            "below the radius",
-        )?;
-        flux.0
-            .into_iter()
-            .try_for_each(|x| require_positive("flux", x))?;
-        reflectance
-            .0
-            .into_iter()
-            .try_for_each(|x| require_albedo("reflectance", x))?;
-        Ok(IntegratingSphere {
-            radius,
-            source,
-            flux,
-            reflectance,
-        })
+        require(off_centre < radius, "distance of the source", off_centre, "below the radius")?;
+        flux.0.into_iter().try_for_each(|x| require_positive("flux", x))?;
+        reflectance.0.into_iter().try_for_each(|x| require_albedo("reflectance", x))?;
+        Ok(IntegratingSphere { radius, source, flux, reflectance })
     }
 
     /// Irradiance straight from the lamp at a point of the wall: `Phi / (4 pi) cos / d^2`, in W/m^2 or lx.
@@ -105,8 +85,7 @@ impl<const C: usize> IntegratingSphere<C> {
     /// The scene as Mitsuba 3 XML, with an irradiance meter (`wall-irradiance`) that averages over the whole wall.
     pub fn xml(&self) -> String {
         let intensity = self.flux * (1.0 / (4.0 * PI));
-        let wall =
-            mitsuba::diffuse(&self.reflectance.0) + &mitsuba::irradiance_meter("wall-irradiance");
+        let wall = mitsuba::diffuse(&self.reflectance.0) + &mitsuba::irradiance_meter("wall-irradiance");
         mitsuba::scene(
             &(mitsuba::point_lamp(self.source, &intensity.0)
                 + &mitsuba::sphere("wall", [0.0; 3], self.radius, true, &wall)),
@@ -143,8 +122,7 @@ mod tests {
     /// The catalogue's D1: R = 1 m, 1000 lm, reflectance 0.8.
     #[test]
     fn catalogue_value() {
-        let s =
-            IntegratingSphere::new(1.0, [0.0; 3], Colour([1000.0]), Colour([0.8])).expect("valid");
+        let s = IntegratingSphere::new(1.0, [0.0; 3], Colour([1000.0]), Colour([0.8])).expect("valid");
         assert!((s.indirect()[0] - 318.30989).abs() < 1e-5);
         assert!((s.indirect_up_to(10)[0] - 284.13162).abs() < 1e-5);
     }
@@ -199,13 +177,8 @@ mod tests {
     fn the_scene_file_carries_the_parameters() {
         let xml = sphere().xml();
         mitsuba::assert_balanced(&xml);
-        assert!(
-            xml.contains("0.8, 0.5, 0.1") && xml.contains("z=\"1.2\""),
-            "{xml}"
-        );
-        assert!(
-            IntegratingSphere::new(1.0, [1.0, 0.0, 0.0], Colour([1.0]), Colour([0.5])).is_err()
-        );
+        assert!(xml.contains("0.8, 0.5, 0.1") && xml.contains("z=\"1.2\""), "{xml}");
+        assert!(IntegratingSphere::new(1.0, [1.0, 0.0, 0.0], Colour([1.0]), Colour([0.5])).is_err());
         assert!(IntegratingSphere::new(1.0, [0.0; 3], Colour([1.0]), Colour([1.0])).is_err());
     }
 }

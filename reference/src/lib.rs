@@ -1,4 +1,22 @@
 //! Scenes whose answer is known, each derived here and checked by an independent computation.
+//!
+//! Two kinds of answer: scenes, which say what the light is ([`cube`], [`integrating_sphere`], [`square_lamp`],
+//! [`ball_lens`], [`furnace`], [`rendering_equation`]) and write themselves as Mitsuba 3 XML from the same parameters;
+//! and laws, which say what an estimator reads on photons that are right ([`fixed_radius_law`], [`nearest_law`],
+//! [`edge_laws`]). Metres, watts or lumens, double precision. The crate sees no other code of the project but its words
+//! for quantities, so that it can judge the rest.
+//!
+//! ```
+//! use photonlab_reference::{cube::Cube, edge_laws, nearest_law::{self, Counted}};
+//!
+//! let solution = Cube::BENCHMARK.solve();
+//! assert!((solution.luminance(0.0, 0.0) - 892.8).abs() < 0.05);
+//! assert!(solution.error_bound() < 1e-5);
+//!
+//! // A gather at a free edge reads one half; twenty nearest photons, all counted, read 20/19 in the open.
+//! assert_eq!(edge_laws::half_plane(0.0), 0.5);
+//! assert!((nearest_law::uniform(20, Counted::All).mean - 20.0 / 19.0).abs() < 1e-12);
+//! ```
 #![forbid(unsafe_code)]
 
 pub mod ball_lens;

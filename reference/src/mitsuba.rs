@@ -22,20 +22,13 @@ pub(crate) fn scene(body: &str) -> String {
 /// An isotropic point lamp of this intensity.
 pub(crate) fn point_lamp(position: [f64; 3], intensity: &[f64]) -> String {
     let (position, intensity) = (triple("point", "position", position), channels(intensity));
-    format!(
-        "  <emitter type=\"point\">{position}<rgb name=\"intensity\" value=\"{intensity}\"/></emitter>\n"
-    )
+    format!("  <emitter type=\"point\">{position}<rgb name=\"intensity\" value=\"{intensity}\"/></emitter>\n")
 }
 
 /// Parallel light from infinity.
 pub(crate) fn parallel_light(direction: [f64; 3], irradiance: &[f64]) -> String {
-    let (direction, irradiance) = (
-        triple("vector", "direction", direction),
-        channels(irradiance),
-    );
-    format!(
-        "  <emitter type=\"directional\">{direction}<rgb name=\"irradiance\" value=\"{irradiance}\"/></emitter>\n"
-    )
+    let (direction, irradiance) = (triple("vector", "direction", direction), channels(irradiance));
+    format!("  <emitter type=\"directional\">{direction}<rgb name=\"irradiance\" value=\"{irradiance}\"/></emitter>\n")
 }
 
 /// A diffuse coating.
@@ -53,10 +46,7 @@ pub(crate) fn dielectric(index: f64) -> String {
 
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
-    format!(
-        "<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>",
-        channels(radiance)
-    )
+    format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
 }
 
 /// A cube around the origin, seen from inside.
@@ -100,19 +90,13 @@ pub(crate) fn radiance_meter(id: &str, origin: [f64; 3], target: [f64; 3]) -> St
 
 /// A meter that reads the mean irradiance over the shape it is put on.
 pub(crate) fn irradiance_meter(id: &str) -> String {
-    format!(
-        "<sensor type=\"irradiancemeter\" id=\"{id}\">{}</sensor>",
-        film(1, 4096)
-    )
+    format!("<sensor type=\"irradiancemeter\" id=\"{id}\">{}</sensor>", film(1, 4096))
 }
 
 /// A camera on the z axis looking down at the floor's cells: `size` by `size` over `[-half_width, half_width]^2`, +y up.
 pub(crate) fn floor_camera(height: f64, half_width: f64, size: usize) -> String {
     let look = look_at([0.0, 0.0, height], [0.0; 3], "0 1 0");
-    let (fov, film) = (
-        2.0 * (half_width / height).atan().to_degrees(),
-        film(size, 64),
-    );
+    let (fov, film) = (2.0 * (half_width / height).atan().to_degrees(), film(size, 64));
     format!(
         "  <sensor type=\"perspective\" id=\"view\">{look}<float name=\"fov\" value=\"{fov}\"/>\
          <string name=\"fov_axis\" value=\"x\"/><float name=\"near_clip\" value=\"0.0001\"/>{film}</sensor>\n"
@@ -132,11 +116,7 @@ pub(crate) fn assert_balanced(xml: &str) {
         let (tag, text) = tag.split_once('>').expect("every tag is closed");
         assert!(text.trim().is_empty(), "stray text {text:?}");
         assert_eq!(tag.matches('"').count() % 2, 0, "{tag}");
-        let name = tag
-            .trim_start_matches('/')
-            .split(' ')
-            .next()
-            .unwrap_or_default();
+        let name = tag.trim_start_matches('/').split(' ').next().unwrap_or_default();
         if tag.starts_with('/') {
             assert_eq!(open.pop(), Some(name));
         } else if !tag.ends_with('/') {

@@ -43,18 +43,10 @@ impl Gauss {
     }
 
     /// The integral of `f` from `a` to `b` in `panels` equal pieces.
-    pub(crate) fn composite(
-        &self,
-        a: f64,
-        b: f64,
-        panels: usize,
-        mut f: impl FnMut(f64) -> f64,
-    ) -> f64 {
+    pub(crate) fn composite(&self, a: f64, b: f64, panels: usize, mut f: impl FnMut(f64) -> f64) -> f64 {
         let step = (b - a) / panels as f64;
         let from = |i: usize| a + step * i as f64;
-        (0..panels)
-            .map(|i| self.integrate(from(i), from(i + 1), &mut f))
-            .sum()
+        (0..panels).map(|i| self.integrate(from(i), from(i + 1), &mut f)).sum()
     }
 }
 
@@ -63,10 +55,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     for k in 0..n {
         let k = k as f64;
-        (before, value) = (
-            value,
-            ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0),
-        );
+        (before, value) = (value, ((2.0 * k + 1.0) * x * value - k * before) / (k + 1.0));
     }
     (value, n as f64 * (x * value - before) / (x * x - 1.0))
 }
@@ -81,10 +70,7 @@ mod tests {
             let rule = Gauss::new(n);
             for degree in 0..2 * n {
                 let got = rule.integrate(0.0, 1.0, |x| x.powi(degree as i32));
-                assert!(
-                    (got * (degree as f64 + 1.0) - 1.0).abs() < 1e-13,
-                    "{n} {degree} {got}"
-                );
+                assert!((got * (degree as f64 + 1.0) - 1.0).abs() < 1e-13, "{n} {degree} {got}");
             }
         }
     }

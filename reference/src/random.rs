@@ -38,10 +38,7 @@ impl Random {
 
     /// Uniform on the unit sphere.
     pub(crate) fn direction(&mut self) -> [f64; 3] {
-        let (z, phi) = (
-            self.between(-1.0, 1.0),
-            self.between(0.0, std::f64::consts::TAU),
-        );
+        let (z, phi) = (self.between(-1.0, 1.0), self.between(0.0, std::f64::consts::TAU));
         let s = (1.0 - z * z).sqrt();
         [s * phi.cos(), s * phi.sin(), z]
     }
@@ -90,17 +87,8 @@ impl Moments {
     /// Fails unless the mean agrees with `exact` within 4.5 standard errors.
     pub(crate) fn must_agree(&self, what: &str, exact: f64) {
         let z = (self.mean - exact) / self.error();
-        println!(
-            "{what}: exact {exact}, simulated {} +- {:.1e}, z = {z:+.2}",
-            self.mean,
-            self.error()
-        );
-        assert!(
-            z.abs() < 4.5,
-            "{what}: exact {exact}, simulated {} +- {}",
-            self.mean,
-            self.error()
-        );
+        println!("{what}: exact {exact}, simulated {} +- {:.1e}, z = {z:+.2}", self.mean, self.error());
+        assert!(z.abs() < 4.5, "{what}: exact {exact}, simulated {} +- {}", self.mean, self.error());
     }
 }
 

@@ -34,23 +34,10 @@ impl DiffuseTransmitter {
     /// A sheet with these shares of the incident flux, both at least 0 and together at most 1.
     pub fn new(reflectance: f64, transmittance: f64) -> Result<Self, OutOfRange> {
         require(reflectance >= 0.0, "reflectance", reflectance, "at least 0")?;
-        require(
-            transmittance >= 0.0,
-            "transmittance",
-            transmittance,
-            "at least 0",
-        )?;
+        require(transmittance >= 0.0, "transmittance", transmittance, "at least 0")?;
         let sum = reflectance + transmittance;
-        require(
-            sum <= 1.0,
-            "reflectance plus transmittance",
-            sum,
-            "at most 1",
-        )?;
-        Ok(DiffuseTransmitter {
-            reflectance,
-            transmittance,
-        })
+        require(sum <= 1.0, "reflectance plus transmittance", sum, "at most 1")?;
+        Ok(DiffuseTransmitter { reflectance, transmittance })
     }
 
     /// The true radiance of the front side, in W/(m^2 sr) or cd/m^2, for irradiance on front and back in W/m^2 or lx.
@@ -84,17 +71,10 @@ mod tests {
         let rule = Gauss::new(8);
         let front = rule.integrate(0.0, 1.0, |z| 2.0 * PI * z * incident(z));
         let back = rule.integrate(-1.0, 0.0, |z| -2.0 * PI * z * incident(z));
-        for reading in [
-            EquationReading::LuminanceFactor,
-            EquationReading::PerSteradian,
-            EquationReading::SignedCosine,
-        ] {
+        for reading in [EquationReading::LuminanceFactor, EquationReading::PerSteradian, EquationReading::SignedCosine]
+        {
             let eq1 = |z: f64| {
-                let factor = if z > 0.0 {
-                    sheet.reflectance
-                } else {
-                    sheet.transmittance
-                };
+                let factor = if z > 0.0 { sheet.reflectance } else { sheet.transmittance };
                 let (bsdf, cosine) = match reading {
                     EquationReading::LuminanceFactor => (factor, z.abs()),
                     EquationReading::PerSteradian => (factor / PI, z.abs()),
@@ -104,10 +84,7 @@ mod tests {
             };
             let integral = rule.integrate(-1.0, 0.0, eq1) + rule.integrate(0.0, 1.0, eq1);
             let got = sheet.read(reading, front, back);
-            assert!(
-                (got - integral).abs() < 1e-12,
-                "{reading:?}: {got} {integral}"
-            );
+            assert!((got - integral).abs() < 1e-12, "{reading:?}: {got} {integral}");
         }
     }
 

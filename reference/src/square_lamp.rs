@@ -21,23 +21,14 @@ pub struct RectangularLamp {
 
 impl RectangularLamp {
     /// The benchmark: edge 1 m, one metre above the floor, radiance 10.
-    pub const SQUARE: RectangularLamp = RectangularLamp {
-        size: [1.0, 1.0],
-        height: 1.0,
-        radiance: 10.0,
-    };
+    pub const SQUARE: RectangularLamp = RectangularLamp { size: [1.0, 1.0], height: 1.0, radiance: 10.0 };
 
     /// A lamp of edges `size` along x and y (m) at `height` (m) with `radiance` in W/(m^2 sr) or cd/m^2.
     pub fn new(size: [f64; 2], height: f64, radiance: f64) -> Result<Self, OutOfRange> {
-        size.into_iter()
-            .try_for_each(|x| require_positive("size", x))?;
+        size.into_iter().try_for_each(|x| require_positive("size", x))?;
         require_positive("height", height)?;
         require_positive("radiance", radiance)?;
-        Ok(RectangularLamp {
-            size,
-            height,
-            radiance,
-        })
+        Ok(RectangularLamp { size, height, radiance })
     }
 
     /// The lamp's flux: `pi L` times its area, in W or lm.
@@ -47,8 +38,7 @@ impl RectangularLamp {
 
     /// Irradiance of the floor at `(x, y)` in metres from the point under the lamp's middle, in W/m^2 or lx.
     pub fn irradiance(&self, x: f64, y: f64) -> f64 {
-        let ends =
-            |i: usize, p: f64| [-0.5, 0.5].map(|half| (half * self.size[i] - p) / self.height);
+        let ends = |i: usize, p: f64| [-0.5, 0.5].map(|half| (half * self.size[i] - p) / self.height);
         let ([x0, x1], [y0, y1]) = (ends(0, x), ends(1, y));
         let share = corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
         PI * self.radiance * share
@@ -60,11 +50,7 @@ impl RectangularLamp {
     pub fn mean_irradiance(&self, from: [f64; 2], to: [f64; 2]) -> f64 {
         let rule = Gauss::new(24);
         let area = (to[0] - from[0]) * (to[1] - from[1]);
-        let pieces = |i: usize| {
-            (2.0 * (to[i] - from[i]).abs() / self.height)
-                .ceil()
-                .max(1.0) as usize
-        };
+        let pieces = |i: usize| (2.0 * (to[i] - from[i]).abs() / self.height).ceil().max(1.0) as usize;
         let row = |x: f64| rule.composite(from[1], to[1], pieces(1), |y| self.irradiance(x, y));
         rule.composite(from[0], to[0], pieces(0), row) / area
     }
@@ -72,17 +58,11 @@ impl RectangularLamp {
     /// The scene as Mitsuba 3 XML: lamp, floor `[-2, 2]^2` of this reflectance, and a camera between them whose
     /// `cells` by `cells` pixels are equal cells of the floor over `[-half_width, half_width]^2`.
     pub fn xml(&self, floor_reflectance: f64, half_width: f64, cells: usize) -> String {
-        let floor = mitsuba::rectangle(
-            "floor",
-            "<scale value=\"2\"/>",
-            &mitsuba::diffuse(&[floor_reflectance]),
-        );
+        let floor = mitsuba::rectangle("floor", "<scale value=\"2\"/>", &mitsuba::diffuse(&[floor_reflectance]));
         let ([a, b], h) = (self.size.map(|x| 0.5 * x), self.height);
         let lamp = mitsuba::rectangle(
             "lamp",
-            &format!(
-                "<scale x=\"{a}\" y=\"{b}\"/><rotate x=\"1\" angle=\"180\"/><translate z=\"{h}\"/>"
-            ),
+            &format!("<scale x=\"{a}\" y=\"{b}\"/><rotate x=\"1\" angle=\"180\"/><translate z=\"{h}\"/>"),
             &(mitsuba::diffuse(&[0.0]) + &mitsuba::area_lamp(&[self.radiance])),
         );
         mitsuba::scene(&(mitsuba::floor_camera(0.95 * h, half_width, cells) + &floor + &lamp))
@@ -116,18 +96,9 @@ mod tests {
     fn the_closed_form_is_the_integral() {
         for (size, height) in [([1.0, 1.0], 1.0), ([2.0, 1.0], 1.5), ([0.3, 4.0], 0.4)] {
             let lamp = RectangularLamp::new(size, height, 10.0).expect("valid");
-            for (x, y) in [
-                (0.0, 0.0),
-                (0.5, 0.5),
-                (1.0, -0.3),
-                (0.15, 2.5),
-                (-3.0, 1.0),
-            ] {
+            for (x, y) in [(0.0, 0.0), (0.5, 0.5), (1.0, -0.3), (0.15, 2.5), (-3.0, 1.0)] {
                 let (got, brute) = (lamp.irradiance(x, y), by_area(&lamp, x, y));
-                assert!(
-                    (got / brute - 1.0).abs() < 1e-11,
-                    "{size:?} ({x}, {y}): {got} {brute}"
-                );
+                assert!((got / brute - 1.0).abs() < 1e-11, "{size:?} ({x}, {y}): {got} {brute}");
             }
         }
     }
@@ -138,11 +109,7 @@ mod tests {
         assert!((under - 7.522746884541).abs() < 1e-12, "{under}");
         // Catalogue C2: [0, 2] x [0, 1] at height 1.5, as a share of the exitance.
         let lamp = RectangularLamp::new([2.0, 1.0], 1.5, 1.0 / PI).expect("valid");
-        for (x, y, share) in [
-            (0.0, 0.0, 0.20907124),
-            (1.0, 0.5, 0.12235966),
-            (2.0, 0.0, 0.046884983),
-        ] {
+        for (x, y, share) in [(0.0, 0.0, 0.20907124), (1.0, 0.5, 0.12235966), (2.0, 0.0, 0.046884983)] {
             assert!((lamp.irradiance(x, y) - share).abs() < 1e-8);
         }
     }
@@ -152,9 +119,7 @@ mod tests {
         let lamp = RectangularLamp::SQUARE;
         let (from, to, n) = ([-0.2, 0.1], [1.3, 0.9], 400);
         let at = |i: usize, k: usize| from[i] + (to[i] - from[i]) * (k as f64 + 0.5) / n as f64;
-        let sum: f64 = (0..n * n)
-            .map(|k| lamp.irradiance(at(0, k / n), at(1, k % n)))
-            .sum();
+        let sum: f64 = (0..n * n).map(|k| lamp.irradiance(at(0, k / n), at(1, k % n))).sum();
         let mean = lamp.mean_irradiance(from, to);
         assert!((mean * (n * n) as f64 / sum - 1.0).abs() < 3e-6);
         // A floor without end catches all the flux; what falls further than R is h^2 / R^2 of it, R between a square's
@@ -169,10 +134,7 @@ mod tests {
     fn the_scene_file_carries_the_parameters() {
         let xml = RectangularLamp::SQUARE.xml(0.5, 1.5, 128);
         mitsuba::assert_balanced(&xml);
-        assert!(
-            xml.contains("115.305113") && xml.contains("scale x=\"0.5\" y=\"0.5\""),
-            "{xml}"
-        );
+        assert!(xml.contains("115.305113") && xml.contains("scale x=\"0.5\" y=\"0.5\""), "{xml}");
         assert!(RectangularLamp::new([1.0, 0.0], 1.0, 1.0).is_err());
     }
 }

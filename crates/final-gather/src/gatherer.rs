@@ -61,38 +61,23 @@ impl<const C: usize> Gatherer<'_, C> {
         let mut weight = Colour::ONE;
         for bounce in 0.. {
             light.add(&self.lamps_at(&at, normal, used, stream).weighted(weight));
-            light.add(
-                &self
-                    .caustics_at(&at, normal, used, scratch)
-                    .weighted(weight),
-            );
+            light.add(&self.caustics_at(&at, normal, used, scratch).weighted(weight));
             if !self.looks_around(used) {
                 break;
             }
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
             stream.leave_prefix();
             let ray = Ray::new(at.position, direction);
-            let start = Start {
-                ray,
-                from: Some(at.primitive),
-                reach: f64::INFINITY,
-                used,
-            };
+            let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used };
             let landing = segment::follow(self.world, self.lamps, &self.limits, start, stream);
             if let Some((hit, emitted)) = landing.first_emission {
                 let balance = self.balance(&at, normal, direction, &hit);
-                let contribution = Light {
-                    irradiance: emitted * (PI * balance),
-                    ..Light::default()
-                };
+                let contribution = Light { irradiance: emitted * (PI * balance), ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
-                let contribution = Light {
-                    irradiance: landing.emitted * PI,
-                    ..Light::default()
-                };
+                let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
             let Some((hit, reflectance, carried)) = landing.diffuse else {
@@ -125,13 +110,7 @@ impl<const C: usize> Gatherer<'_, C> {
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
-    fn lamps_at(
-        &self,
-        at: &SurfacePoint,
-        normal: DVec3,
-        used: u32,
-        stream: &mut Stream,
-    ) -> Light<C> {
+    fn lamps_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, stream: &mut Stream) -> Light<C> {
         let xi = [stream.next(), stream.next(), stream.next()];
         if !self.limits.allows(used + 1) {
             return Light::default();
@@ -144,33 +123,19 @@ impl<const C: usize> Gatherer<'_, C> {
             0.0 => 1.0,
             pdf => pdf / (pdf + by_chance),
         };
-        Light {
-            irradiance: sample.irradiance * balance,
-            ..Light::default()
-        }
+        Light { irradiance: sample.irradiance * balance, ..Light::default() }
     }
 
     /// The balance heuristic's weight (Veach and Guibas 1995) of a lamp met by a ray drawn by cosine.
     fn balance(&self, at: &SurfacePoint, normal: DVec3, direction: DVec3, hit: &Hit) -> f64 {
         let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(normal));
-        let sampled = lamp_pdf_solid_angle(
-            self.world,
-            self.lamps,
-            hit.point.primitive,
-            at.position,
-            hit.point.position,
-        );
+        let sampled =
+            lamp_pdf_solid_angle(self.world, self.lamps, hit.point.primitive, at.position, hit.point.position);
         by_chance / (by_chance + sampled)
     }
 
     /// Caustic light, straight from its map.
-    fn caustics_at(
-        &self,
-        at: &SurfacePoint,
-        normal: DVec3,
-        used: u32,
-        scratch: &mut Scratch,
-    ) -> Light<C> {
+    fn caustics_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(caustic) = self.maps.and_then(|maps| maps.caustic) else {
             return Light::default();
         };
@@ -184,18 +149,10 @@ impl<const C: usize> Gatherer<'_, C> {
     /// What a ray gathers where it lands, unless that is too close to where it came from, to an edge or to another
     /// surface: `None` then, and the walk goes on by a further bounce instead. The ball that must stay on the surface is
     /// the one that checks the bias, twice the radius of the one averaged over.
-    fn far_landing(
-        &self,
-        hit: &Hit,
-        distance: f64,
-        used: u32,
-        scratch: &mut Scratch,
-    ) -> Option<Light<C>> {
+    fn far_landing(&self, hit: &Hit, distance: f64, used: u32, scratch: &mut Scratch) -> Option<Light<C>> {
         let surface = self.maps?.surface?;
-        let near = distance < 2.0 * surface.radius
-            || self
-                .world
-                .ball_leaves_surface(&hit.point, CHECK * surface.radius);
+        let near =
+            distance < 2.0 * surface.radius || self.world.ball_leaves_surface(&hit.point, CHECK * surface.radius);
         (!near).then(|| self.read(&surface, &hit.point, hit.facing_normal(), used, scratch))
     }
 
@@ -207,18 +164,10 @@ impl<const C: usize> Gatherer<'_, C> {
         used: u32,
         scratch: &mut Scratch,
     ) -> Light<C> {
-        let tests = Tests {
-            max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)),
-            ..Tests::default()
-        };
+        let tests =
+            Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let point = gather_point(at, normal);
-        let estimate = source.map.gather(
-            &point,
-            Bandwidth::Radius(source.radius),
-            AreaModel::Disc,
-            &tests,
-            scratch,
-        );
+        let estimate = source.map.gather(&point, Bandwidth::Radius(source.radius), AreaModel::Disc, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
@@ -230,8 +179,5 @@ impl<const C: usize> Gatherer<'_, C> {
 
 /// The gather point of a surface point on the side of `normal`.
 pub fn gather_point(at: &SurfacePoint, normal: DVec3) -> GatherPoint {
-    GatherPoint {
-        position: at.position.as_vec3().to_array(),
-        normal: normal.as_vec3().to_array(),
-    }
+    GatherPoint { position: at.position.as_vec3().to_array(), normal: normal.as_vec3().to_array() }
 }

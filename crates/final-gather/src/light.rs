@@ -37,9 +37,6 @@ impl<const C: usize> Light<C> {
 
     /// Divides everything by a number of samples.
     pub fn over(&self, samples: f64) -> Self {
-        Self {
-            photons: self.photons / samples,
-            ..self.weighted(Colour::splat(1.0 / samples))
-        }
+        Self { photons: self.photons / samples, ..self.weighted(Colour::splat(1.0 / samples)) }
     }
 }

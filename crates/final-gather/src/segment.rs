@@ -58,12 +58,7 @@ pub fn follow<const C: usize>(
     start: Start,
     stream: &mut Stream,
 ) -> Landing<C> {
-    let Start {
-        mut ray,
-        mut from,
-        mut reach,
-        used,
-    } = start;
+    let Start { mut ray, mut from, mut reach, used } = start;
     let mut weight = Colour::ONE;
     let mut landing = Landing {
         emitted: Colour::ZERO,

@@ -49,10 +49,6 @@ pub struct Tests {
 
 impl Default for Tests {
     fn default() -> Self {
-        Self {
-            normal: true,
-            side: true,
-            max_segments: None,
-        }
+        Self { normal: true, side: true, max_segments: None }
     }
 }

@@ -21,11 +21,6 @@ pub struct Estimate<const C: usize> {
 impl<const C: usize> Estimate<C> {
     /// Nothing found within a radius.
     pub fn nothing(radius: f64) -> Self {
-        Self {
-            irradiance: Colour::ZERO,
-            bias: Colour::ZERO,
-            photons: 0,
-            radius,
-        }
+        Self { irradiance: Colour::ZERO, bias: Colour::ZERO, photons: 0, radius }
     }
 }

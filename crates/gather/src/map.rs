@@ -34,14 +34,8 @@ pub struct Scratch {
 
 impl<const C: usize> PhotonMap<C> {
     /// Builds the map.
-    pub fn build(
-        positions: Vec<[f32; 3]>,
-        photons: Vec<Photon<C>>,
-        rule: SplitRule,
-    ) -> Result<Self, BuildError> {
-        Ok(Self {
-            tree: KdTree::build(positions, photons, rule)?,
-        })
+    pub fn build(positions: Vec<[f32; 3]>, photons: Vec<Photon<C>>, rule: SplitRule) -> Result<Self, BuildError> {
+        Ok(Self { tree: KdTree::build(positions, photons, rule)? })
     }
 
     /// Stored photons.
@@ -70,9 +64,7 @@ impl<const C: usize> PhotonMap<C> {
     ) -> Estimate<C> {
         match bandwidth {
             Bandwidth::Radius(radius) => self.within(at, radius, area, tests),
-            Bandwidth::Nearest { k, max_radius } => {
-                self.nearest(at, k, max_radius, area, tests, scratch)
-            }
+            Bandwidth::Nearest { k, max_radius } => self.nearest(at, k, max_radius, area, tests, scratch),
         }
     }
 
@@ -80,31 +72,22 @@ impl<const C: usize> PhotonMap<C> {
     fn within(&self, at: &GatherPoint, radius: f64, area: AreaModel, tests: &Tests) -> Estimate<C> {
         let inside = (radius * radius) as f32;
         let (mut ball, mut ring, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
-        self.tree.within(
-            at.position,
-            (CHECK * radius) as f32,
-            |index, distance_squared| {
-                let photon = &self.tree.payloads()[index];
-                if counts(photon, at, tests) {
-                    if distance_squared <= inside {
-                        photons += 1;
-                        ball += photon.flux();
-                    } else {
-                        ring += photon.flux();
-                    }
+        self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
+            let photon = &self.tree.payloads()[index];
+            if counts(photon, at, tests) {
+                if distance_squared <= inside {
+                    photons += 1;
+                    ball += photon.flux();
+                } else {
+                    ring += photon.flux();
                 }
-            },
-        );
+            }
+        });
         let per_area = 1.0 / area.area(radius * radius);
         let irradiance = ball * per_area;
         let wider = (ball + ring) * (per_area / (CHECK * CHECK));
         let bias = (wider - irradiance) * (1.0 / (CHECK * CHECK - 1.0));
-        Estimate {
-            irradiance,
-            bias,
-            photons,
-            radius,
-        }
+        Estimate { irradiance, bias, photons, radius }
     }
 
     /// The k nearest: the flux of the k - 1 nearest over the area of the k-th one's radius (catalogue A2), unbiased where
@@ -119,13 +102,7 @@ impl<const C: usize> PhotonMap<C> {
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         let found = &mut scratch.found;
-        self.tree.nearest(
-            at.position,
-            k,
-            max_radius as f32,
-            |photon| counts(photon, at, tests),
-            found,
-        );
+        self.tree.nearest(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
             return self.sum(found, max_radius * max_radius, max_radius, area);
@@ -137,13 +114,7 @@ impl<const C: usize> PhotonMap<C> {
         self.sum(found, radius_squared, radius_squared.sqrt(), area)
     }
 
-    fn sum(
-        &self,
-        found: &[Neighbour],
-        radius_squared: f64,
-        radius: f64,
-        area: AreaModel,
-    ) -> Estimate<C> {
+    fn sum(&self, found: &[Neighbour], radius_squared: f64, radius: f64, area: AreaModel) -> Estimate<C> {
         let half = 0.5 * radius_squared;
         let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
         for neighbour in found {
@@ -156,12 +127,7 @@ impl<const C: usize> PhotonMap<C> {
         let per_area = 1.0 / area.area(radius_squared);
         // The inner half of the area has half the bias, so twice the difference is the whole.
         let bias = (all * per_area - inner * (2.0 * per_area)) * 2.0;
-        Estimate {
-            irradiance: all * per_area,
-            bias,
-            photons: found.len(),
-            radius,
-        }
+        Estimate { irradiance: all * per_area, bias, photons: found.len(), radius }
     }
 
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
@@ -176,21 +142,12 @@ impl<const C: usize> PhotonMap<C> {
                     position: self.tree.points()[index],
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                self.tree.nearest(
-                    at.position,
-                    k,
-                    f32::INFINITY,
-                    |p| counts(p, &at, &tests),
-                    &mut scratch.found,
-                );
+                self.tree.nearest(at.position, k, f32::INFINITY, |p| counts(p, &at, &tests), &mut scratch.found);
                 (scratch.found.len() == k).then(|| scratch.found[k - 1].distance_squared.sqrt())
             })
             .collect();
         radii.sort_by(f32::total_cmp);
-        radii
-            .get(radii.len() / 2)
-            .map(|&r| f64::from(r))
-            .filter(|&r| r > 0.0)
+        radii.get(radii.len() / 2).map(|&r| f64::from(r)).filter(|&r| r > 0.0)
     }
 }
 
@@ -198,7 +155,5 @@ fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -
     let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     (!tests.normal || dot(photon.normal.unpack(), at.normal) >= SAME_SURFACE)
         && (!tests.side || dot(photon.direction.unpack(), at.normal) < 0.0)
-        && tests
-            .max_segments
-            .is_none_or(|max| u32::from(photon.segments) <= max)
+        && tests.max_segments.is_none_or(|max| u32::from(photon.segments) <= max)
 }

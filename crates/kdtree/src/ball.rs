@@ -37,29 +37,15 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     }
 
     /// [`within`](Self::within), telling what the walk cost.
-    pub fn within_counted(
-        &self,
-        query: [f32; 3],
-        radius: f32,
-        visit: impl FnMut(usize, f32),
-    ) -> Visits {
+    pub fn within_counted(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, f32)) -> Visits {
         let mut visits = Visits::default();
         self.within_metered(query, radius, visit, &mut visits);
         visits
     }
 
-    fn within_metered(
-        &self,
-        query: [f32; 3],
-        radius: f32,
-        visit: impl FnMut(usize, f32),
-        meter: &mut impl Meter,
-    ) {
+    fn within_metered(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, f32), meter: &mut impl Meter) {
         if radius >= 0.0 {
-            let mut ball = Ball {
-                radius_squared: radius * radius,
-                visit,
-            };
+            let mut ball = Ball { radius_squared: radius * radius, visit };
             walk(&self.nodes, &self.points, query, &mut ball, meter);
         }
     }

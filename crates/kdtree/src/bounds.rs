@@ -10,10 +10,7 @@ pub(crate) struct Bounds {
 impl Bounds {
     /// The tight box of at least one point.
     pub(crate) fn around(points: impl IntoIterator<Item = [f32; 3]>) -> Self {
-        let none = Self {
-            lo: [f32::INFINITY; 3],
-            hi: [f32::NEG_INFINITY; 3],
-        };
+        let none = Self { lo: [f32::INFINITY; 3], hi: [f32::NEG_INFINITY; 3] };
         points.into_iter().fold(none, |b, p| Self {
             lo: std::array::from_fn(|axis| b.lo[axis].min(p[axis])),
             hi: std::array::from_fn(|axis| b.hi[axis].max(p[axis])),
@@ -28,13 +25,7 @@ impl Bounds {
     /// The longest edge, the first of several equal ones; none where the box is a single point.
     pub(crate) fn widest_axis(&self) -> Option<usize> {
         let extent = self.extent();
-        let widest = (0..3).fold(0, |best, axis| {
-            if extent[axis] > extent[best] {
-                axis
-            } else {
-                best
-            }
-        });
+        let widest = (0..3).fold(0, |best, axis| if extent[axis] > extent[best] { axis } else { best });
         (extent[widest] > 0.0).then_some(widest)
     }
 
@@ -74,29 +65,16 @@ mod tests {
     #[test]
     fn measures_itself() {
         let b = Bounds::around([[0.0, 1.0, 5.0], [2.0, -3.0, 5.0]]);
-        assert_eq!(
-            b,
-            Bounds {
-                lo: [0.0, -3.0, 5.0],
-                hi: [2.0, 1.0, 5.0]
-            }
-        );
+        assert_eq!(b, Bounds { lo: [0.0, -3.0, 5.0], hi: [2.0, 1.0, 5.0] });
         assert_eq!((b.area(), b.widest_axis()), (16.0, Some(1)));
         assert_eq!(Bounds::around([[7.0; 3]]).widest_axis(), None);
-        assert_eq!(
-            Bounds::around([[f32::MIN; 3], [f32::MAX; 3]]).widest_axis(),
-            Some(0)
-        );
+        assert_eq!(Bounds::around([[f32::MIN; 3], [f32::MAX; 3]]).widest_axis(), Some(0));
         let (low, high) = b.cut(1, 0.0);
         assert_eq!((low.hi[1], high.lo[1]), (0.0, 0.0));
     }
 
     fn coordinate() -> impl Strategy<Value = f32> {
-        prop_oneof![
-            -2f32..2.0,
-            any::<f32>().prop_filter("finite", |x| x.is_finite()),
-            -1e-20f32..1e-20
-        ]
+        prop_oneof![-2f32..2.0, any::<f32>().prop_filter("finite", |x| x.is_finite()), -1e-20f32..1e-20]
     }
 
     proptest! {

@@ -16,17 +16,11 @@ enum Content {
 
 impl Branch {
     pub(crate) fn leaf(bounds: Bounds, len: usize) -> Self {
-        Self {
-            bounds,
-            content: Content::Leaf { len },
-        }
+        Self { bounds, content: Content::Leaf { len } }
     }
 
     pub(crate) fn inner(bounds: Bounds, left: Self, right: Self) -> Self {
-        Self {
-            bounds,
-            content: Content::Inner(Box::new([left, right])),
-        }
+        Self { bounds, content: Content::Inner(Box::new([left, right])) }
     }
 
     /// The nodes in depth-first order, the leaves' points in the order of the runs.
@@ -61,18 +55,10 @@ mod tests {
 
     #[test]
     fn flattens_depth_first() {
-        let b = Bounds {
-            lo: [0.0; 3],
-            hi: [1.0; 3],
-        };
+        let b = Bounds { lo: [0.0; 3], hi: [1.0; 3] };
         let left = Branch::inner(b, Branch::leaf(b, 3), Branch::leaf(b, 4));
         let nodes = Branch::inner(b, left, Branch::leaf(b, 5)).flatten();
-        let expected = [
-            Node::inner(b, 4),
-            Node::inner(b, 3),
-            Node::leaf(b, 0, 3),
-            Node::leaf(b, 3, 4),
-        ];
+        let expected = [Node::inner(b, 4), Node::inner(b, 3), Node::leaf(b, 0, 3), Node::leaf(b, 3, 4)];
         assert_eq!(nodes[..4], expected);
         assert_eq!(nodes[4..], [Node::leaf(b, 7, 5)]);
     }

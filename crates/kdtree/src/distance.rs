@@ -25,10 +25,7 @@ mod tests {
     #[test]
     fn is_symmetric_to_the_bit_and_adds_from_x_to_z() {
         let (a, b) = ([0.1, 0.7, -3.3], [5.9, 1e-4, 0.2]);
-        assert_eq!(
-            distance_squared(a, b).to_bits(),
-            distance_squared(b, a).to_bits()
-        );
+        assert_eq!(distance_squared(a, b).to_bits(), distance_squared(b, a).to_bits());
         // 1 + 2^-24 rounds back to 1 twice, whereas (2^-24 + 2^-24) + 1 would not.
         let tiny = 2f32.powi(-12);
         assert_eq!(distance_squared([1.0, tiny, tiny], [0.0; 3]), 1.0);
@@ -37,10 +34,7 @@ mod tests {
     #[test]
     fn overflows_to_infinity_and_underflows_to_zero() {
         assert_eq!(distance_squared([1e30, 0.0, 0.0], [0.0; 3]), f32::INFINITY);
-        assert_eq!(
-            distance_squared([f32::MAX; 3], [f32::MIN; 3]),
-            f32::INFINITY
-        );
+        assert_eq!(distance_squared([f32::MAX; 3], [f32::MIN; 3]), f32::INFINITY);
         assert_eq!(distance_squared([1e-30, 0.0, 0.0], [0.0; 3]), 0.0);
     }
 }

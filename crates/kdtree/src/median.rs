@@ -15,11 +15,7 @@ struct Item {
 
 /// The tree of at least one point, and the original indices in the order of its leaves.
 pub(crate) fn build(points: &[[f32; 3]], leaf_limit: usize) -> (Branch, Vec<u32>) {
-    let mut items: Vec<Item> = points
-        .iter()
-        .zip(0..)
-        .map(|(&point, index)| Item { point, index })
-        .collect();
+    let mut items: Vec<Item> = points.iter().zip(0..).map(|(&point, index)| Item { point, index }).collect();
     let root = grow(&mut items, leaf_limit);
     (root, items.iter().map(|item| item.index).collect())
 }
@@ -34,11 +30,7 @@ fn grow(items: &mut [Item], leaf_limit: usize) -> Branch {
 
     // A total order makes the two halves, as sets, a function of the points alone.
     let half = items.len() / 2;
-    items.select_nth_unstable_by(half, |a, b| {
-        a.point[axis]
-            .total_cmp(&b.point[axis])
-            .then(a.index.cmp(&b.index))
-    });
+    items.select_nth_unstable_by(half, |a, b| a.point[axis].total_cmp(&b.point[axis]).then(a.index.cmp(&b.index)));
 
     let serial = items.len() < SERIAL;
     let (low, high) = items.split_at_mut(half);
@@ -74,9 +66,7 @@ mod tests {
     #[test]
     fn equal_coordinates_part_by_original_index() {
         // Every tenth point lies apart; the cut falls among the equal others.
-        let points: Vec<[f32; 3]> = (0..5000)
-            .map(|i| [f32::from(u8::from(i % 10 == 0)), 0.0, 0.0])
-            .collect();
+        let points: Vec<[f32; 3]> = (0..5000).map(|i| [f32::from(u8::from(i % 10 == 0)), 0.0, 0.0]).collect();
         let (_, order) = build(&points, 2500);
         let mut equal = (0..5000).filter(|i| i % 10 != 0);
         let low: Vec<u32> = equal.by_ref().take(2500).collect();

@@ -31,10 +31,7 @@ impl<A: FnMut(usize) -> bool> Collector for Nearest<'_, A> {
     }
 
     fn offer(&mut self, index: usize, distance_squared: f32) {
-        let candidate = Neighbour {
-            index,
-            distance_squared,
-        };
+        let candidate = Neighbour { index, distance_squared };
         let full = self.found.len() == self.k;
         if (full && !self.is_worse(self.found[0], candidate)) || !(self.accept)(index) {
             return;
@@ -60,8 +57,7 @@ impl<A> Nearest<'_, A> {
     #[inline]
     fn is_worse(&self, a: Neighbour, b: Neighbour) -> bool {
         a.distance_squared > b.distance_squared
-            || (a.distance_squared == b.distance_squared
-                && self.original[a.index] > self.original[b.index])
+            || (a.distance_squared == b.distance_squared && self.original[a.index] > self.original[b.index])
     }
 
     /// Restores the heap below a parent that may be better than its children.
@@ -71,9 +67,7 @@ impl<A> Nearest<'_, A> {
             if child >= self.found.len() {
                 return;
             }
-            if child + 1 < self.found.len()
-                && self.is_worse(self.found[child + 1], self.found[child])
-            {
+            if child + 1 < self.found.len() && self.is_worse(self.found[child + 1], self.found[child]) {
                 child += 1;
             }
             if !self.is_worse(self.found[child], self.found[parent]) {
@@ -134,13 +128,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         }
         let (payload, original) = (&self.payload, &self.original);
         let accept = |index: usize| accept(&payload[index]);
-        let mut nearest = Nearest {
-            k,
-            reach: max_radius * max_radius,
-            original,
-            accept,
-            found,
-        };
+        let mut nearest = Nearest { k, reach: max_radius * max_radius, original, accept, found };
         walk(&self.nodes, &self.points, query, &mut nearest, meter);
         found.sort_unstable_by(|a, b| {
             let by_distance = a.distance_squared.total_cmp(&b.distance_squared);

@@ -25,19 +25,11 @@ pub(crate) enum Content {
 impl Node {
     pub(crate) fn leaf(bounds: Bounds, first: u32, len: u32) -> Self {
         debug_assert!(len > 0);
-        Self {
-            bounds,
-            link: first,
-            len,
-        }
+        Self { bounds, link: first, len }
     }
 
     pub(crate) fn inner(bounds: Bounds, right: u32) -> Self {
-        Self {
-            bounds,
-            link: right,
-            len: 0,
-        }
+        Self { bounds, link: right, len: 0 }
     }
 
     #[inline]

@@ -50,9 +50,7 @@ impl SplitRule {
     pub(crate) fn check(self) -> Result<(), BuildError> {
         match self {
             Self::Median => Ok(()),
-            Self::SurfaceArea {
-                empty_cost: EmptyCost::Constant(cost) | EmptyCost::NodeAreas(cost),
-            } => {
+            Self::SurfaceArea { empty_cost: EmptyCost::Constant(cost) | EmptyCost::NodeAreas(cost) } => {
                 if cost >= 0.0 {
                     Ok(())
                 } else {
@@ -82,13 +80,7 @@ mod tests {
         let check = |empty_cost| SplitRule::SurfaceArea { empty_cost }.check();
         assert_eq!(check(EmptyCost::Constant(0.0)), Ok(()));
         assert_eq!(check(EmptyCost::NodeAreas(f64::INFINITY)), Ok(()));
-        assert_eq!(
-            check(EmptyCost::Constant(-1.0)),
-            Err(BuildError::EmptyCost { cost: -1.0 })
-        );
-        assert!(matches!(
-            check(EmptyCost::NodeAreas(f64::NAN)),
-            Err(BuildError::EmptyCost { .. })
-        ));
+        assert_eq!(check(EmptyCost::Constant(-1.0)), Err(BuildError::EmptyCost { cost: -1.0 }));
+        assert!(matches!(check(EmptyCost::NodeAreas(f64::NAN)), Err(BuildError::EmptyCost { .. })));
     }
 }

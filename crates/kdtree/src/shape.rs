@@ -60,11 +60,7 @@ mod tests {
     #[test]
     fn of_nothing_and_of_a_line() {
         let line = |n: u16| (0..n).map(|i| [f32::from(i), 0.0, 0.0]).collect::<Vec<_>>();
-        let shape = |n| {
-            KdTree::build(line(n), vec![0u8; n.into()], SplitRule::Median)
-                .unwrap()
-                .shape()
-        };
+        let shape = |n| KdTree::build(line(n), vec![0u8; n.into()], SplitRule::Median).unwrap().shape();
         assert_eq!(shape(0), TreeShape::default());
         let expected = TreeShape {
             nodes: 7,

@@ -16,25 +16,13 @@ pub(crate) fn depth_limit(count: usize) -> usize {
 }
 
 /// The tree of at least one point, and the original indices in the order of its leaves.
-pub(crate) fn build(
-    points: &[[f32; 3]],
-    empty_cost: EmptyCost,
-    leaf_limit: usize,
-) -> (Branch, Vec<u32>) {
+pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> (Branch, Vec<u32>) {
     let mut sorted: [Vec<u32>; 3] = std::array::from_fn(|axis| sorted_along(points, axis));
     let mut scratch = vec![0; points.len()];
     let [x, y, z] = &mut sorted;
-    let orders = Orders {
-        along: [x, y, z],
-        scratch: &mut scratch,
-    };
+    let orders = Orders { along: [x, y, z], scratch: &mut scratch };
     let cell = orders.tight_box(points);
-    let root = Builder {
-        points,
-        empty_cost,
-        leaf_limit,
-    }
-    .grow(cell, orders, depth_limit(points.len()));
+    let root = Builder { points, empty_cost, leaf_limit }.grow(cell, orders, depth_limit(points.len()));
     let [order, ..] = sorted;
     (root, order)
 }
@@ -78,11 +66,7 @@ impl Builder<'_> {
         let (left, right) = orders.split_at(cut.left);
         let left = || self.grow(low, left, cuts_left - 1);
         let right = || self.grow(high, right, cuts_left - 1);
-        let (left, right) = if serial {
-            (left(), right())
-        } else {
-            rayon::join(left, right)
-        };
+        let (left, right) = if serial { (left(), right()) } else { rayon::join(left, right) };
         Branch::inner(bounds, left, right)
     }
 
@@ -153,14 +137,8 @@ impl<'a> Orders<'a> {
     fn split_at(self, left: usize) -> (Self, Self) {
         let [x, y, z] = self.along.map(|run| run.split_at_mut(left));
         let scratch = self.scratch.split_at_mut(left);
-        let low = Self {
-            along: [x.0, y.0, z.0],
-            scratch: scratch.0,
-        };
-        let high = Self {
-            along: [x.1, y.1, z.1],
-            scratch: scratch.1,
-        };
+        let low = Self { along: [x.0, y.0, z.0], scratch: scratch.0 };
+        let high = Self { along: [x.1, y.1, z.1], scratch: scratch.1 };
         (low, high)
     }
 }
@@ -171,11 +149,7 @@ mod tests {
     use crate::{KdTree, SplitRule};
 
     fn leaves(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> usize {
-        build(points, empty_cost, leaf_limit)
-            .0
-            .flatten()
-            .len()
-            .div_ceil(2)
+        build(points, empty_cost, leaf_limit).0.flatten().len().div_ceil(2)
     }
 
     #[test]
@@ -192,9 +166,7 @@ mod tests {
     #[test]
     fn a_constant_cost_depends_on_scale_and_node_areas_do_not() {
         let grid = |step: f32| -> Vec<[f32; 3]> {
-            (0..512)
-                .map(|i| [i & 7, (i >> 3) & 7, i >> 6].map(|c| c as f32 * step))
-                .collect()
+            (0..512).map(|i| [i & 7, (i >> 3) & 7, i >> 6].map(|c| c as f32 * step)).collect()
         };
         let (small, large) = (grid(0.125), grid(64.0));
         let areas = EmptyCost::NodeAreas(6.0);
@@ -208,9 +180,7 @@ mod tests {
         assert_eq!([1, 2, 3, 1 << 31].map(depth_limit), [16, 18, 20, 78]);
         // Cubes that halve: by eq. 2 it is cheapest to take off the few outermost points.
         let points: Vec<[f32; 3]> = (0..250).map(|i| [2f32.powi(i - 125); 3]).collect();
-        let rule = SplitRule::SurfaceArea {
-            empty_cost: EmptyCost::NodeAreas(0.0),
-        };
+        let rule = SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(0.0) };
         let tree = KdTree::build_with_leaf_limit(points, vec![(); 250], rule, 1).unwrap();
         assert_eq!(tree.shape().depth, depth_limit(250) + 1);
         assert!(tree.shape().largest_leaf > 50, "{:?}", tree.shape());
@@ -218,9 +188,7 @@ mod tests {
 
     #[test]
     fn a_leaf_keeps_the_order_given() {
-        let points: Vec<[f32; 3]> = (0..99)
-            .map(|i| [-(i as f32), 0.0, (i % 7) as f32])
-            .collect();
+        let points: Vec<[f32; 3]> = (0..99).map(|i| [-(i as f32), 0.0, (i % 7) as f32]).collect();
         let (_, order) = build(&points, EmptyCost::Constant(f64::INFINITY), 1);
         assert_eq!(order, (0..99).collect::<Vec<_>>());
     }

@@ -47,21 +47,10 @@ fn sweep(cell: &Bounds, points: &[[f32; 3]], order: &[u32], axis: usize, best: &
             end += 1;
         }
         for (left, ties_left) in [(first, false), (end, true)] {
-            let shrinks_or_splits =
-                (left > 0 || at > cell.lo[axis]) && (left < count || at < cell.hi[axis]);
+            let shrinks_or_splits = (left > 0 || at > cell.lo[axis]) && (left < count || at < cell.hi[axis]);
             if shrinks_or_splits {
                 let cost = slab.cost(at, left, count);
-                keep_better(
-                    best,
-                    Cut {
-                        axis,
-                        at,
-                        ties_left,
-                        left,
-                        cost,
-                    },
-                    count,
-                );
+                keep_better(best, Cut { axis, at, ties_left, left, cost }, count);
             }
         }
         first = end;
@@ -71,9 +60,9 @@ fn sweep(cell: &Bounds, points: &[[f32; 3]], order: &[u32], axis: usize, best: &
 /// Earlier candidates win full ties, so the lower axis and then the lower coordinate does.
 fn keep_better(best: &mut Option<Cut>, cut: Cut, count: usize) {
     let unevenness = |cut: &Cut| cut.left.abs_diff(count - cut.left);
-    let better = best.as_ref().is_none_or(|best| {
-        cut.cost < best.cost || (cut.cost == best.cost && unevenness(&cut) < unevenness(best))
-    });
+    let better = best
+        .as_ref()
+        .is_none_or(|best| cut.cost < best.cost || (cut.cost == best.cost && unevenness(&cut) < unevenness(best)));
     if better {
         *best = Some(cut);
     }
@@ -92,12 +81,7 @@ impl Slab {
         let extent = cell.extent();
         let (b, c) = (extent[(axis + 1) % 3], extent[(axis + 2) % 3]);
         let (lo, hi) = (f64::from(cell.lo[axis]), f64::from(cell.hi[axis]));
-        Self {
-            lo,
-            hi,
-            faces: 2.0 * b * c,
-            rim: 2.0 * (b + c),
-        }
+        Self { lo, hi, faces: 2.0 * b * c, rim: 2.0 * (b + c) }
     }
 
     #[inline]
@@ -130,20 +114,13 @@ mod tests {
     /// Eq. 2 by enumeration: every point's coordinate, both sides for ties, counts by looking at each point.
     fn enumerated(cell: &Bounds, points: &[[f32; 3]]) -> Option<f64> {
         let mut best: Option<f64> = None;
-        for (axis, at, ties_left) in (0..3).flat_map(|a| {
-            points
-                .iter()
-                .flat_map(move |p| [(a, p[a], false), (a, p[a], true)])
-        }) {
-            let left = points
-                .iter()
-                .filter(|p| p[axis] < at || (ties_left && p[axis] == at))
-                .count();
+        for (axis, at, ties_left) in
+            (0..3).flat_map(|a| points.iter().flat_map(move |p| [(a, p[a], false), (a, p[a], true)]))
+        {
+            let left = points.iter().filter(|p| p[axis] < at || (ties_left && p[axis] == at)).count();
             let right = points.len() - left;
             let (low, high) = cell.cut(axis, at);
-            if (left == 0 && low.extent()[axis] == 0.0)
-                || (right == 0 && high.extent()[axis] == 0.0)
-            {
+            if (left == 0 && low.extent()[axis] == 0.0) || (right == 0 && high.extent()[axis] == 0.0) {
                 continue;
             }
             let cost = low.area() * left as f64 + high.area() * right as f64;
@@ -158,20 +135,14 @@ mod tests {
         let wall = |x: f32| [[x, 0.0, 0.0], [x, 1.0, 0.0], [x, 0.0, 1.0], [x, 1.0, 1.0]];
         let points: Vec<_> = wall(0.0).into_iter().chain(wall(10.0)).collect();
         let cut = swept(&Bounds::around(points.iter().copied()), &points).unwrap();
-        assert_eq!(
-            (cut.axis, cut.at, cut.ties_left, cut.left),
-            (0, 0.0, true, 4)
-        );
+        assert_eq!((cut.axis, cut.at, cut.ties_left, cut.left), (0, 0.0, true, 4));
         assert_eq!(cut.cost, 2.0 * 4.0 + 42.0 * 4.0);
     }
 
     #[test]
     fn shrinks_a_cell_to_its_points_and_then_stops() {
         let points = [[0.5; 3]; 3];
-        let mut cell = Bounds {
-            lo: [0.0; 3],
-            hi: [1.0; 3],
-        };
+        let mut cell = Bounds { lo: [0.0; 3], hi: [1.0; 3] };
         for _ in 0..6 {
             let cut = swept(&cell, &points).unwrap();
             let (low, high) = cell.cut(cut.axis, cut.at);

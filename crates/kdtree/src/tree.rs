@@ -24,11 +24,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     ///
     /// Leaves hold up to [`DEFAULT_LEAF_LIMIT`] points, more where the rule says so. Runs on rayon's current
     /// thread pool; the result does not depend on it.
-    pub fn build(
-        points: Vec<[f32; 3]>,
-        payload: Vec<P>,
-        rule: SplitRule,
-    ) -> Result<Self, BuildError> {
+    pub fn build(points: Vec<[f32; 3]>, payload: Vec<P>, rule: SplitRule) -> Result<Self, BuildError> {
         Self::build_with_leaf_limit(points, payload, rule, DEFAULT_LEAF_LIMIT)
     }
 
@@ -45,19 +41,12 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         check_finite(&points)?;
         rule.check()?;
         if points.is_empty() {
-            return Ok(Self {
-                nodes: vec![],
-                points,
-                payload,
-                original: vec![],
-            });
+            return Ok(Self { nodes: vec![], points, payload, original: vec![] });
         }
         let leaf_limit = leaf_limit.max(1);
         let (root, original) = match rule {
             SplitRule::Median => median::build(&points, leaf_limit),
-            SplitRule::SurfaceArea { empty_cost } => {
-                surface_area::build(&points, empty_cost, leaf_limit)
-            }
+            SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit),
         };
         Ok(Self {
             nodes: root.flatten(),
@@ -120,19 +109,10 @@ mod tests {
 
     #[test]
     fn counts_must_agree_and_fit() {
-        assert_eq!(
-            check_counts(3, 2),
-            Err(BuildError::LengthMismatch {
-                points: 3,
-                payload: 2
-            })
-        );
+        assert_eq!(check_counts(3, 2), Err(BuildError::LengthMismatch { points: 3, payload: 2 }));
         assert_eq!(check_counts(MAX_POINTS, MAX_POINTS), Ok(()));
         let points = MAX_POINTS + 1;
-        assert_eq!(
-            check_counts(points, points),
-            Err(BuildError::TooMany { points })
-        );
+        assert_eq!(check_counts(points, points), Err(BuildError::TooMany { points }));
     }
 
     #[test]

@@ -73,10 +73,7 @@ impl Pending {
     const CAPACITY: usize = 80;
 
     fn new() -> Self {
-        Self {
-            nodes: [(0, 0.0); Self::CAPACITY],
-            len: 0,
-        }
+        Self { nodes: [(0, 0.0); Self::CAPACITY], len: 0 }
     }
 
     #[inline]

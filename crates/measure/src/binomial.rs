@@ -13,36 +13,15 @@ use crate::incomplete_beta::{beta_quantile, beta_tails};
 /// If `confidence` is outside (0, 1) or there are more successes than trials.
 pub fn binomial_interval(successes: u64, trials: u64, confidence: f64) -> Interval {
     crate::quantile::check(confidence);
-    assert!(
-        successes <= trials,
-        "{successes} successes in {trials} trials"
-    );
+    assert!(successes <= trials, "{successes} successes in {trials} trials");
     if trials == 0 {
-        return Interval {
-            value: 0.5,
-            low: 0.0,
-            high: 1.0,
-            confidence,
-        };
+        return Interval { value: 0.5, low: 0.0, high: 1.0, confidence };
     }
     let (k, n, tail) = (successes as f64, trials as f64, 0.5 * (1.0 - confidence));
-    let low = if successes == 0 {
-        0.0
-    } else {
-        beta_quantile(k, n - k + 1.0, tail)
-    };
+    let low = if successes == 0 { 0.0 } else { beta_quantile(k, n - k + 1.0, tail) };
     // By symmetry from the failures' lower end: a quantile near 1 would lose its digits.
-    let high = if successes == trials {
-        1.0
-    } else {
-        1.0 - beta_quantile(n - k, k + 1.0, tail)
-    };
-    Interval {
-        value: k / n,
-        low,
-        high,
-        confidence,
-    }
+    let high = if successes == trials { 1.0 } else { 1.0 - beta_quantile(n - k, k + 1.0, tail) };
+    Interval { value: k / n, low, high, confidence }
 }
 
 /// P(X >= `successes`) for X binomial with `trials` trials of the given `probability`.
@@ -51,23 +30,14 @@ pub fn binomial_interval(successes: u64, trials: u64, confidence: f64) -> Interv
 ///
 /// If `probability` is outside [0, 1].
 pub fn binomial_upper_tail(successes: u64, trials: u64, probability: f64) -> f64 {
-    assert!(
-        (0.0..=1.0).contains(&probability),
-        "a probability lies in [0, 1], not {probability}"
-    );
+    assert!((0.0..=1.0).contains(&probability), "a probability lies in [0, 1], not {probability}");
     if successes == 0 {
         return 1.0;
     }
     if successes > trials {
         return 0.0;
     }
-    beta_tails(
-        successes as f64,
-        (trials - successes) as f64 + 1.0,
-        probability,
-        1.0 - probability,
-    )
-    .0
+    beta_tails(successes as f64, (trials - successes) as f64 + 1.0, probability, 1.0 - probability).0
 }
 
 #[cfg(test)]
@@ -78,10 +48,7 @@ mod tests {
     #[test]
     fn agrees_with_a_published_interval() {
         let i = binomial_interval(7, 50, 0.95);
-        assert!(
-            (i.low - 0.0581917).abs() < 1e-6 && (i.high - 0.2673961).abs() < 1e-6,
-            "{i:?}"
-        );
+        assert!((i.low - 0.0581917).abs() < 1e-6 && (i.high - 0.2673961).abs() < 1e-6, "{i:?}");
     }
 
     /// Nothing in n trials: the upper end is 1 - (alpha/2)^(1/n), "the rule of three" for one-sided 95 %.

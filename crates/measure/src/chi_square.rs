@@ -59,46 +59,26 @@ pub fn chi_square_test(observed: &[u64], expected: &[f64]) -> Result<ChiSquare, 
         return Err(ChiSquareError::TooFew);
     }
     let degrees_of_freedom = cells.len() - 1;
-    let impossible = observed
-        .iter()
-        .zip(expected)
-        .any(|(&o, &e)| o > 0 && e == 0.0);
+    let impossible = observed.iter().zip(expected).any(|(&o, &e)| o > 0 && e == 0.0);
     if impossible {
-        return Ok(ChiSquare {
-            statistic: f64::INFINITY,
-            degrees_of_freedom,
-            p_value: 0.0,
-        });
+        return Ok(ChiSquare { statistic: f64::INFINITY, degrees_of_freedom, p_value: 0.0 });
     }
     let statistic = cells.iter().map(|(o, e)| (o - e).powi(2) / e).sum();
     let law = ChiSquared::new(degrees_of_freedom as f64).expect("at least one degree of freedom");
-    Ok(ChiSquare {
-        statistic,
-        degrees_of_freedom,
-        p_value: law.sf(statistic),
-    })
+    Ok(ChiSquare { statistic, degrees_of_freedom, p_value: law.sf(statistic) })
 }
 
 fn check(observed: &[u64], expected: &[f64]) -> Result<(), ChiSquareError> {
     if observed.len() != expected.len() {
-        return Err(ChiSquareError::Length {
-            observed: observed.len(),
-            expected: expected.len(),
-        });
+        return Err(ChiSquareError::Length { observed: observed.len(), expected: expected.len() });
     }
     if let Some(cell) = expected.iter().position(|&e| !(e >= 0.0 && e.is_finite())) {
-        return Err(ChiSquareError::BadCount {
-            cell,
-            count: expected[cell],
-        });
+        return Err(ChiSquareError::BadCount { cell, count: expected[cell] });
     }
     let total_observed = observed.iter().sum::<u64>() as f64;
     let total_expected = expected.iter().sum::<f64>();
     if (total_observed - total_expected).abs() > 1e-6 * total_observed.max(1.0) {
-        return Err(ChiSquareError::Totals {
-            observed: total_observed,
-            expected: total_expected,
-        });
+        return Err(ChiSquareError::Totals { observed: total_observed, expected: total_expected });
     }
     Ok(())
 }
@@ -149,31 +129,14 @@ mod tests {
 
     #[test]
     fn the_impossible_refutes() {
-        assert_eq!(
-            chi_square_test(&[1, 9, 10], &[0.0, 10.0, 10.0])
-                .unwrap()
-                .p_value,
-            0.0
-        );
+        assert_eq!(chi_square_test(&[1, 9, 10], &[0.0, 10.0, 10.0]).unwrap().p_value, 0.0);
     }
 
     #[test]
     fn what_cannot_be_tested_is_refused() {
-        assert_eq!(
-            chi_square_test(&[1, 2], &[1.5, 1.5]),
-            Err(ChiSquareError::TooFew)
-        );
-        assert!(matches!(
-            chi_square_test(&[10], &[5.0, 5.0]),
-            Err(ChiSquareError::Length { .. })
-        ));
-        assert!(matches!(
-            chi_square_test(&[10, 10], &[10.0, 11.0]),
-            Err(ChiSquareError::Totals { .. })
-        ));
-        assert!(matches!(
-            chi_square_test(&[10, 10], &[10.0, f64::NAN]),
-            Err(ChiSquareError::BadCount { cell: 1, .. })
-        ));
+        assert_eq!(chi_square_test(&[1, 2], &[1.5, 1.5]), Err(ChiSquareError::TooFew));
+        assert!(matches!(chi_square_test(&[10], &[5.0, 5.0]), Err(ChiSquareError::Length { .. })));
+        assert!(matches!(chi_square_test(&[10, 10], &[10.0, 11.0]), Err(ChiSquareError::Totals { .. })));
+        assert!(matches!(chi_square_test(&[10, 10], &[10.0, f64::NAN]), Err(ChiSquareError::BadCount { cell: 1, .. })));
     }
 }

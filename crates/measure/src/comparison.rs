@@ -27,12 +27,7 @@ impl Expected {
 
     /// A value plus and minus `tolerance`.
     pub fn within(value: f64, tolerance: f64, source: impl Into<String>) -> Self {
-        Expected {
-            value,
-            low: value - tolerance,
-            high: value + tolerance,
-            source: source.into(),
-        }
+        Expected { value, low: value - tolerance, high: value + tolerance, source: source.into() }
     }
 
     fn check(&self, at: &str) -> Result<(), NotFinite> {
@@ -73,14 +68,7 @@ impl Comparison {
         measured: Option<Interval>,
     ) -> Self {
         let holds = measured.map(|m| m.low <= expected.high && expected.low <= m.high);
-        Comparison {
-            label: label.into(),
-            unit: unit.into(),
-            expected,
-            measured,
-            holds,
-            note: None,
-        }
+        Comparison { label: label.into(), unit: unit.into(), expected, measured, holds, note: None }
     }
 
     /// Adds what a reader should know.
@@ -91,8 +79,7 @@ impl Comparison {
 
     pub(crate) fn check(&self, at: &str) -> Result<(), NotFinite> {
         self.expected.check(&format!("{at}.expected"))?;
-        self.measured
-            .map_or(Ok(()), |m| m.check(&format!("{at}.measured")))
+        self.measured.map_or(Ok(()), |m| m.check(&format!("{at}.measured")))
     }
 }
 
@@ -101,12 +88,7 @@ mod tests {
     use super::*;
 
     fn holds(low: f64, high: f64) -> Option<bool> {
-        let measured = Interval {
-            value: 0.5 * (low + high),
-            low,
-            high,
-            confidence: 0.95,
-        };
+        let measured = Interval { value: 0.5 * (low + high), low, high, confidence: 0.95 };
         Comparison::judge("x", "1", Expected::within(1.0, 0.1, "test"), Some(measured)).holds
     }
 
@@ -117,10 +99,7 @@ mod tests {
         assert_eq!(holds(1.1, 1.2), Some(true));
         assert_eq!(holds(1.1000001, 1.2), Some(false));
         assert_eq!(holds(0.5, 0.8), Some(false));
-        assert_eq!(
-            Comparison::judge("x", "1", Expected::exact(1.0, "test"), None).holds,
-            None
-        );
+        assert_eq!(Comparison::judge("x", "1", Expected::exact(1.0, "test"), None).holds, None);
         assert_eq!(holds(f64::NAN, f64::NAN), Some(false));
     }
 }

@@ -35,18 +35,12 @@ pub struct Axis {
 impl Axis {
     /// A linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
-        Axis {
-            label: label.into(),
-            log: false,
-        }
+        Axis { label: label.into(), log: false }
     }
 
     /// A logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
-        Axis {
-            label: label.into(),
-            log: true,
-        }
+        Axis { label: label.into(), log: true }
     }
 }
 
@@ -93,22 +87,12 @@ pub struct Point {
 impl Point {
     /// A point without an interval.
     pub fn new(x: f64, y: f64) -> Self {
-        Point {
-            x,
-            y,
-            low: None,
-            high: None,
-        }
+        Point { x, y, low: None, high: None }
     }
 
     /// A measured point with its interval.
     pub fn measured(x: f64, y: crate::Interval) -> Self {
-        Point {
-            x,
-            y: y.value,
-            low: Some(y.low),
-            high: Some(y.high),
-        }
+        Point { x, y: y.value, low: Some(y.low), high: Some(y.high) }
     }
 }
 

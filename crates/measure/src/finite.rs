@@ -16,12 +16,7 @@ pub struct NotFinite {
 ///
 /// `serde_json::json!(f64::NAN)` gives `null`: use this for computed numbers.
 pub fn json_number(field: &str, value: f64) -> Result<Value, NotFinite> {
-    Number::from_f64(value)
-        .map(Value::Number)
-        .ok_or_else(|| NotFinite {
-            field: field.to_owned(),
-            value,
-        })
+    Number::from_f64(value).map(Value::Number).ok_or_else(|| NotFinite { field: field.to_owned(), value })
 }
 
 /// Accepts finite numbers; the error names the field as `at.name`, or `name` at the top.
@@ -29,11 +24,7 @@ pub(crate) fn finite(at: &str, name: &str, value: f64) -> Result<(), NotFinite> 
     if value.is_finite() {
         return Ok(());
     }
-    let field = if at.is_empty() {
-        name.to_owned()
-    } else {
-        format!("{at}.{name}")
-    };
+    let field = if at.is_empty() { name.to_owned() } else { format!("{at}.{name}") };
     Err(NotFinite { field, value })
 }
 
@@ -50,10 +41,7 @@ mod tests {
     fn the_error_names_the_field() {
         assert!(finite("a", "b", 1.0).is_ok());
         assert_eq!(finite("a", "b", f64::NAN).unwrap_err().field, "a.b");
-        assert_eq!(
-            json_number("visits", f64::INFINITY).unwrap_err().field,
-            "visits"
-        );
+        assert_eq!(json_number("visits", f64::INFINITY).unwrap_err().field, "visits");
         assert_eq!(json_number("visits", 2.5).unwrap(), serde_json::json!(2.5));
     }
 }

@@ -79,15 +79,9 @@ mod tests {
         for x in [1e-6, 0.1, 0.5, 0.9, 0.999] {
             for shape in [0.5, 1.0, 3.0, 40.0] {
                 let lower = beta_tails(shape, 1.0, x, 1.0 - x).0;
-                assert!(
-                    (lower / x.powf(shape) - 1.0).abs() < 1e-12,
-                    "{x} {shape}: {lower}"
-                );
+                assert!((lower / x.powf(shape) - 1.0).abs() < 1e-12, "{x} {shape}: {lower}");
                 let upper = beta_tails(1.0, shape, x, 1.0 - x).1;
-                assert!(
-                    (upper / (1.0 - x).powf(shape) - 1.0).abs() < 1e-12,
-                    "{x} {shape}: {upper}"
-                );
+                assert!((upper / (1.0 - x).powf(shape) - 1.0).abs() < 1e-12, "{x} {shape}: {upper}");
             }
         }
     }
@@ -96,14 +90,8 @@ mod tests {
     #[test]
     fn large_shapes() {
         for shape in [1e3, 1e5, 1e7] {
-            assert!(
-                (beta_tails(shape, shape, 0.5, 0.5).0 - 0.5).abs() < 1e-7,
-                "{shape}"
-            );
-            assert!(
-                (beta_quantile(shape, shape, 0.5) - 0.5).abs() < 1e-9,
-                "{shape}"
-            );
+            assert!((beta_tails(shape, shape, 0.5, 0.5).0 - 0.5).abs() < 1e-7, "{shape}");
+            assert!((beta_quantile(shape, shape, 0.5) - 0.5).abs() < 1e-9, "{shape}");
         }
     }
 
@@ -112,10 +100,7 @@ mod tests {
         for (a, b) in [(0.5, 0.5), (3.0, 40.0), (2e4, 5.0)] {
             for p in [1e-12, 1e-4, 0.3, 0.99] {
                 let x = beta_quantile(a, b, p);
-                assert!(
-                    (beta_tails(a, b, x, 1.0 - x).0 / p - 1.0).abs() < 1e-7,
-                    "{a} {b} {p}"
-                );
+                assert!((beta_tails(a, b, x, 1.0 - x).0 / p - 1.0).abs() < 1e-7, "{a} {b} {p}");
             }
         }
     }

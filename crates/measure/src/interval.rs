@@ -21,12 +21,7 @@ pub struct Interval {
 impl Interval {
     /// `value` plus and minus `half_width`.
     pub fn around(value: f64, half_width: f64, confidence: f64) -> Self {
-        Interval {
-            value,
-            low: value - half_width,
-            high: value + half_width,
-            confidence,
-        }
+        Interval { value, low: value - half_width, high: value + half_width, confidence }
     }
 
     /// Half the interval's length.
@@ -42,12 +37,7 @@ impl Interval {
     /// The same interval in another unit or as a ratio: everything times `factor` (ends swapped if it is negative).
     pub fn scaled(&self, factor: f64) -> Self {
         let (a, b) = (self.low * factor, self.high * factor);
-        Interval {
-            value: self.value * factor,
-            low: a.min(b),
-            high: a.max(b),
-            confidence: self.confidence,
-        }
+        Interval { value: self.value * factor, low: a.min(b), high: a.max(b), confidence: self.confidence }
     }
 
     pub(crate) fn check(&self, at: &str) -> Result<(), NotFinite> {
@@ -64,12 +54,7 @@ mod tests {
 
     #[test]
     fn a_negative_factor_keeps_the_ends_in_order() {
-        let i = Interval {
-            value: 2.0,
-            low: 1.0,
-            high: 4.0,
-            confidence: 0.95,
-        };
+        let i = Interval { value: 2.0, low: 1.0, high: 4.0, confidence: 0.95 };
         let s = i.scaled(-2.0);
         assert_eq!((s.value, s.low, s.high), (-4.0, -8.0, -2.0));
         assert!(s.contains(-8.0) && !s.contains(-8.1));

@@ -51,10 +51,7 @@ pub fn kolmogorov_smirnov_test(
         statistic = statistic.max(f - i as f64 / n).max((i + 1) as f64 / n - f);
     }
     let scaled = (n.sqrt() + 0.12 + 0.11 / n.sqrt()) * statistic;
-    Ok(KolmogorovSmirnov {
-        statistic,
-        p_value: kolmogorov_survival(scaled),
-    })
+    Ok(KolmogorovSmirnov { statistic, p_value: kolmogorov_survival(scaled) })
 }
 
 /// P(K > x) of Kolmogorov's limit distribution; each of the two series is used where it converges at once.
@@ -63,9 +60,7 @@ fn kolmogorov_survival(x: f64) -> f64 {
         return 1.0;
     }
     if x < 1.18 {
-        let sum: f64 = (0..4)
-            .map(|k| (-(f64::from(2 * k + 1) * PI / x).powi(2) / 8.0).exp())
-            .sum();
+        let sum: f64 = (0..4).map(|k| (-(f64::from(2 * k + 1) * PI / x).powi(2) / 8.0).exp()).sum();
         return 1.0 - (2.0 * PI).sqrt() / x * sum;
     }
     let term = |k: i32| (-2.0 * (f64::from(k) * x).powi(2)).exp();
@@ -80,11 +75,7 @@ mod tests {
     #[test]
     fn the_limit_agrees_with_tables() {
         for (x, p) in [(0.82757, 0.5), (1.35810, 0.05), (1.62762, 0.01)] {
-            assert!(
-                (kolmogorov_survival(x) - p).abs() < 2e-5,
-                "{x}: {}",
-                kolmogorov_survival(x)
-            );
+            assert!((kolmogorov_survival(x) - p).abs() < 2e-5, "{x}: {}", kolmogorov_survival(x));
         }
     }
 
@@ -105,10 +96,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_tested_is_refused() {
-        assert_eq!(
-            kolmogorov_smirnov_test(&[], |x| x),
-            Err(KolmogorovSmirnovError::Empty)
-        );
+        assert_eq!(kolmogorov_smirnov_test(&[], |x| x), Err(KolmogorovSmirnovError::Empty));
         assert!(kolmogorov_smirnov_test(&[f64::NAN], |x| x).is_err());
         assert!(kolmogorov_smirnov_test(&[0.5], |_| 1.5).is_err());
     }

@@ -55,8 +55,6 @@ pub struct FluxLedger {
 impl FluxLedger {
     pub(crate) fn check(&self, at: &str) -> Result<(), NotFinite> {
         self.total.check(at)?;
-        self.classes
-            .iter()
-            .try_for_each(|(class, book)| book.check(&format!("{at}.classes.{class}")))
+        self.classes.iter().try_for_each(|(class, book)| book.check(&format!("{at}.classes.{class}")))
     }
 }

@@ -66,8 +66,7 @@ impl Measurement {
         for (i, reading) in self.readings.iter().enumerate() {
             reading.check(&format!("readings[{i}]"))?;
         }
-        let text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and lists have a JSON form");
+        let text = serde_json::to_string_pretty(self).expect("strings, numbers and lists have a JSON form");
         Ok(text + "\n")
     }
 }

@@ -19,10 +19,7 @@ const NORMAL_FROM: f64 = 1e8;
 /// of replicates, not once per pixel.
 pub fn student_t_quantile(confidence: f64, dof: f64) -> f64 {
     check(confidence);
-    assert!(
-        dof > 0.0,
-        "degrees of freedom must be above zero, not {dof}"
-    );
+    assert!(dof > 0.0, "degrees of freedom must be above zero, not {dof}");
     if dof >= NORMAL_FROM {
         return normal_quantile(confidence);
     }
@@ -37,13 +34,7 @@ pub fn student_t_quantile(confidence: f64, dof: f64) -> f64 {
 /// P(|T| > t) for Student's T with `dof` degrees of freedom and t >= 0: the two-sided p-value.
 pub(crate) fn student_t_outside(t: f64, dof: f64) -> f64 {
     let square = t * t;
-    beta_tails(
-        0.5 * dof,
-        0.5,
-        dof / (dof + square),
-        square / (dof + square),
-    )
-    .0
+    beta_tails(0.5 * dof, 0.5, dof / (dof + square), square / (dof + square)).0
 }
 
 /// The z with P(|Z| <= z) = `confidence` for a standard normal Z; dimensionless.
@@ -58,10 +49,7 @@ pub fn normal_quantile(confidence: f64) -> f64 {
 
 /// Confidences come from our own code or from options checked at the command line: a wrong one is a bug.
 pub(crate) fn check(confidence: f64) {
-    assert!(
-        confidence > 0.0 && confidence < 1.0,
-        "a confidence lies strictly between 0 and 1, not {confidence}"
-    );
+    assert!(confidence > 0.0 && confidence < 1.0, "a confidence lies strictly between 0 and 1, not {confidence}");
 }
 
 #[cfg(test)]
@@ -89,10 +77,7 @@ mod tests {
     fn normal_is_the_limit_of_student_t() {
         assert!((normal_quantile(0.95) - 1.959963984540054).abs() < 1e-9);
         assert!((student_t_quantile(0.95, 9.9e7) - normal_quantile(0.95)).abs() < 1e-6);
-        assert_eq!(
-            student_t_quantile(0.99, f64::INFINITY),
-            normal_quantile(0.99)
-        );
+        assert_eq!(student_t_quantile(0.99, f64::INFINITY), normal_quantile(0.99));
     }
 
     /// One degree of freedom is Cauchy's law, two have a closed form; far into the tail too.
@@ -100,15 +85,9 @@ mod tests {
     fn closed_forms_hold_far_into_the_tail() {
         for tail in [0.2f64, 1e-3, 1e-6, 1e-9] {
             let cauchy = 1.0 / (0.5 * std::f64::consts::PI * tail).tan();
-            assert!(
-                (student_t_quantile(1.0 - tail, 1.0) / cauchy - 1.0).abs() < 1e-6,
-                "{tail}"
-            );
+            assert!((student_t_quantile(1.0 - tail, 1.0) / cauchy - 1.0).abs() < 1e-6, "{tail}");
             let two = (1.0 - tail) * (2.0 / (tail * (2.0 - tail))).sqrt();
-            assert!(
-                (student_t_quantile(1.0 - tail, 2.0) / two - 1.0).abs() < 1e-6,
-                "{tail}"
-            );
+            assert!((student_t_quantile(1.0 - tail, 2.0) / two - 1.0).abs() < 1e-6, "{tail}");
         }
     }
 

@@ -71,9 +71,7 @@ impl Reading {
         let why = match (std_error, bias_bound) {
             (Some(_), Some(_)) => None,
             (None, _) => Some("no standard error: fewer than two independent replicates"),
-            (Some(_), None) => {
-                Some("no bound on the bias is known: the interval is of the noise alone")
-            }
+            (Some(_), None) => Some("no bound on the bias is known: the interval is of the noise alone"),
         };
         let reading = Reading {
             value: Some(value),
@@ -132,11 +130,7 @@ impl Reading {
     }
 
     /// Adds what the value rests on: photons or samples, and the radius averaged over, in metres.
-    pub fn with_support(
-        mut self,
-        photons_used: f64,
-        radius: Option<f64>,
-    ) -> Result<Self, NotFinite> {
+    pub fn with_support(mut self, photons_used: f64, radius: Option<f64>) -> Result<Self, NotFinite> {
         self.photons_used = Some(photons_used);
         self.radius = radius;
         self.check("reading")?;
@@ -174,9 +168,7 @@ impl Reading {
             ("photons_used", self.photons_used),
             ("radius", self.radius),
         ];
-        numbers
-            .into_iter()
-            .try_for_each(|(name, x)| finite_if_some(at, name, x))
+        numbers.into_iter().try_for_each(|(name, x)| finite_if_some(at, name, x))
     }
 }
 
@@ -185,21 +177,13 @@ mod tests {
     use super::*;
 
     fn place() -> Place {
-        Place {
-            sensor: "floor".into(),
-            quantity: Quantity::Illuminance,
-            cell: [1, 2],
-            channel: "Y".into(),
-        }
+        Place { sensor: "floor".into(), quantity: Quantity::Illuminance, cell: [1, 2], channel: "Y".into() }
     }
 
     #[test]
     fn the_interval_is_noise_plus_bias() {
         let r = Reading::new(place(), 100.0, Some(2.0), 2.5, Some(1.0)).unwrap();
-        assert_eq!(
-            (r.low, r.high, r.certified, r.why.as_deref()),
-            (Some(94.0), Some(106.0), true, None)
-        );
+        assert_eq!((r.low, r.high, r.certified, r.why.as_deref()), (Some(94.0), Some(106.0), true, None));
         assert_eq!(r.unit, Unit::Lux);
         assert_eq!(r.relative_half_width(), Some(0.06));
     }
@@ -210,34 +194,22 @@ mod tests {
         assert_eq!((no_bias.low, no_bias.certified), (Some(96.0), false));
         let single: Replicates = [3.0].into_iter().collect();
         let no_error = Reading::from_replicates(place(), &single, 0.95, Some(0.0)).unwrap();
-        assert_eq!(
-            (no_error.value, no_error.low, no_error.certified),
-            (Some(3.0), None, false)
-        );
+        assert_eq!((no_error.value, no_error.low, no_error.certified), (Some(3.0), None, false));
         let none = Reading::from_replicates(place(), &Replicates::new(), 0.95, None).unwrap();
-        assert_eq!(
-            (none.value, none.relative_half_width(), none.certified),
-            (None, None, false)
-        );
+        assert_eq!((none.value, none.relative_half_width(), none.certified), (None, None, false));
     }
 
     #[test]
     fn reasons_add_up() {
-        let r =
-            Reading::nothing(place(), "no photon within the radius").not_certified("time ran out");
-        assert_eq!(
-            r.why.as_deref(),
-            Some("no photon within the radius; time ran out")
-        );
+        let r = Reading::nothing(place(), "no photon within the radius").not_certified("time ran out");
+        assert_eq!(r.why.as_deref(), Some("no photon within the radius; time ran out"));
     }
 
     #[test]
     fn a_nan_is_refused_by_name() {
         let nan = Reading::new(place(), f64::NAN, None, 0.0, None).unwrap_err();
         assert_eq!(nan.field, "reading.value");
-        let support = Reading::nothing(place(), "dark")
-            .with_support(f64::INFINITY, None)
-            .unwrap_err();
+        let support = Reading::nothing(place(), "dark").with_support(f64::INFINITY, None).unwrap_err();
         assert_eq!(support.field, "reading.photons_used");
     }
 }

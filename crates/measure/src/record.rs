@@ -2,60 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::finite::{NotFinite, finite};
-use crate::{Comparison, FigureData, ImageEntry, Verdict};
-
-/// How long an experiment may take.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Budget {
-    /// At most three minutes for all claims.
-    Quick,
-    /// At most two hours on two cores.
-    Paper,
-    /// At most twelve hours, resumable.
-    Archive,
-}
-
-impl Budget {
-    /// Its name at the command line and in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Budget::Quick => "quick",
-            Budget::Paper => "paper",
-            Budget::Archive => "archive",
-        }
-    }
-}
+use crate::run::is_date;
+use crate::{Budget, Comparison, FigureData, ImageEntry, Run, Verdict, replace_file};
 
 /// One row of a record: every replicate has one, failures too. Build numbers with [`json_number`](crate::json_number).
 pub type Row = BTreeMap<String, Value>;
-
-/// When, where and by which command a record was made; never the machine's name or paths.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Run {
-    /// The run's name.
-    pub id: String,
-    /// The commit of the source; null outside a checkout.
-    pub commit: Option<String>,
-    /// The command that repeats it.
-    pub command: String,
-    /// The processor's model.
-    pub processor: String,
-    /// Threads used.
-    pub threads: u32,
-    /// Day of the run, YYYY-MM-DD.
-    pub date: String,
-    /// Wall time in seconds.
-    pub seconds: f64,
-}
 
 /// One claim, put to the test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -150,25 +108,15 @@ impl Record {
     /// The folder must exist. Refuses what [`Record::check`] refuses.
     pub fn save(&self, path: &Path) -> Result<(), RecordError> {
         self.check()?;
-        let text = serde_json::to_string_pretty(self)
-            .expect("strings, numbers and lists have a JSON form")
-            + "\n";
-        replace_file(path, text.as_bytes()).map_err(|source| RecordError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        let text = serde_json::to_string_pretty(self).expect("strings, numbers and lists have a JSON form") + "\n";
+        replace_file(path, text.as_bytes()).map_err(|source| RecordError::Write { path: path.to_owned(), source })
     }
 
     /// Reads a record and checks it; an unknown or missing field is an error.
     pub fn load(path: &Path) -> Result<Self, RecordError> {
-        let text = fs::read_to_string(path).map_err(|source| RecordError::Read {
-            path: path.to_owned(),
-            source,
-        })?;
-        let record: Record = serde_json::from_str(&text).map_err(|source| RecordError::Parse {
-            path: path.to_owned(),
-            source,
-        })?;
+        let text = fs::read_to_string(path).map_err(|source| RecordError::Read { path: path.to_owned(), source })?;
+        let record: Record =
+            serde_json::from_str(&text).map_err(|source| RecordError::Parse { path: path.to_owned(), source })?;
         record.check()?;
         Ok(record)
     }
@@ -176,11 +124,7 @@ impl Record {
     /// Refuses numbers that are not finite, intervals out of order, a date that is none, figure ids used twice and
     /// image paths that leave the record's folder.
     pub fn check(&self) -> Result<(), RecordError> {
-        self.check_numbers()
-            .map_err(|source| RecordError::NotFinite {
-                claim: self.claim.clone(),
-                source,
-            })?;
+        self.check_numbers().map_err(|source| RecordError::NotFinite { claim: self.claim.clone(), source })?;
         self.check_intervals()?;
         if !is_date(&self.run.date) {
             return Err(self.wrong("run.date", format!("{:?} is not YYYY-MM-DD", self.run.date)));
@@ -189,13 +133,9 @@ impl Record {
         if let Some(twice) = self.figures.iter().find(|f| !seen.insert(&f.id)) {
             return Err(self.wrong("figures", format!("the id {:?} is used twice", twice.id)));
         }
-        let outside =
-            |path: &str| path.starts_with('/') || path.split('/').any(|part| part == "..");
+        let outside = |path: &str| path.starts_with('/') || path.split('/').any(|part| part == "..");
         match self.images.iter().find(|image| outside(&image.path)) {
-            Some(image) => Err(self.wrong(
-                "images",
-                format!("{:?} leaves the record's folder", image.path),
-            )),
+            Some(image) => Err(self.wrong("images", format!("{:?} leaves the record's folder", image.path))),
             None => Ok(()),
         }
     }
@@ -215,73 +155,20 @@ impl Record {
         for (i, comparison) in self.comparisons.iter().enumerate() {
             let (e, m) = (&comparison.expected, &comparison.measured);
             if !(e.low <= e.value && e.value <= e.high) {
-                return Err(self.wrong(
-                    &format!("comparisons[{i}].expected"),
-                    "low <= value <= high fails",
-                ));
+                return Err(self.wrong(&format!("comparisons[{i}].expected"), "low <= value <= high fails"));
             }
             let Some(m) = m else { continue };
             if !(m.low <= m.value && m.value <= m.high) {
-                return Err(self.wrong(
-                    &format!("comparisons[{i}].measured"),
-                    "low <= value <= high fails",
-                ));
+                return Err(self.wrong(&format!("comparisons[{i}].measured"), "low <= value <= high fails"));
             }
             if !(m.confidence > 0.0 && m.confidence < 1.0) {
-                return Err(self.wrong(
-                    &format!("comparisons[{i}].measured.confidence"),
-                    "outside (0, 1)",
-                ));
+                return Err(self.wrong(&format!("comparisons[{i}].measured.confidence"), "outside (0, 1)"));
             }
         }
         Ok(())
     }
 
     fn wrong(&self, field: &str, what: impl Into<String>) -> RecordError {
-        RecordError::Wrong {
-            claim: self.claim.clone(),
-            field: field.to_owned(),
-            what: what.into(),
-        }
+        RecordError::Wrong { claim: self.claim.clone(), field: field.to_owned(), what: what.into() }
     }
-}
-
-fn is_date(text: &str) -> bool {
-    let bytes = text.as_bytes();
-    let number = |range: std::ops::Range<usize>| {
-        text.get(range)
-            .and_then(|digits| digits.parse::<u32>().ok())
-    };
-    bytes.len() == 10
-        && bytes.iter().enumerate().all(|(i, b)| {
-            if i == 4 || i == 7 {
-                *b == b'-'
-            } else {
-                b.is_ascii_digit()
-            }
-        })
-        && number(5..7).is_some_and(|month| (1..=12).contains(&month))
-        && number(8..10).is_some_and(|day| (1..=31).contains(&day))
-}
-
-/// Writes beside the file and renames, so that a reader sees the old file or the new one, never a part.
-fn replace_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let name = path
-        .file_name()
-        .ok_or_else(|| io::Error::new(io::ErrorKind::InvalidInput, "not a file name"))?;
-    let draft = path.with_file_name(format!(
-        ".{}.{}.part",
-        name.to_string_lossy(),
-        std::process::id()
-    ));
-    let written = fs::File::create(&draft).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    let replaced = written.and_then(|()| fs::rename(&draft, path));
-    if replaced.is_err() {
-        // The draft is of no use to anyone; the first error is the one to report.
-        let _ = fs::remove_file(&draft);
-    }
-    replaced
 }

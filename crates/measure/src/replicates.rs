@@ -91,11 +91,7 @@ impl Replicates {
     ///
     /// If `confidence` is outside (0, 1).
     pub fn interval(&self, confidence: f64) -> Option<Interval> {
-        Some(Interval::around(
-            self.mean()?,
-            self.half_width(confidence)?,
-            confidence,
-        ))
+        Some(Interval::around(self.mean()?, self.half_width(confidence)?, confidence))
     }
 }
 
@@ -119,9 +115,7 @@ mod tests {
 
     #[test]
     fn a_small_set_by_hand() {
-        let r: Replicates = [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0]
-            .into_iter()
-            .collect();
+        let r: Replicates = [2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0].into_iter().collect();
         assert_eq!(r.mean(), Some(5.0));
         assert!((r.variance().unwrap() - 32.0 / 7.0).abs() < 1e-14);
         let half = 2.3646242510103 * (32.0f64 / 56.0).sqrt(); // t(0.975, 7)
@@ -132,17 +126,13 @@ mod tests {
     #[test]
     fn the_uniform_has_variance_one_twelfth_and_parts_make_the_whole() {
         let n = 3000;
-        let values: Vec<f64> = (0..n)
-            .map(|i| (f64::from(i * 1117 % n) + 0.5) / f64::from(n))
-            .collect();
+        let values: Vec<f64> = (0..n).map(|i| (f64::from(i * 1117 % n) + 0.5) / f64::from(n)).collect();
         let whole: Replicates = values.iter().copied().collect();
         let mut parts = Replicates::new();
         for part in values.chunks(1000) {
             parts.merge(&part.iter().copied().collect());
         }
-        assert!(
-            (whole.variance().unwrap() * 12.0 * f64::from(n - 1) / f64::from(n) - 1.0).abs() < 1e-6
-        );
+        assert!((whole.variance().unwrap() * 12.0 * f64::from(n - 1) / f64::from(n) - 1.0).abs() < 1e-6);
         assert_eq!(parts.len(), whole.len());
         assert!((parts.mean().unwrap() - whole.mean().unwrap()).abs() < 1e-14);
         assert!((parts.variance().unwrap() / whole.variance().unwrap() - 1.0).abs() < 1e-13);
@@ -150,24 +140,16 @@ mod tests {
 
     #[test]
     fn digits_survive_a_large_offset() {
-        let r: Replicates = [1e9 + 4.0, 1e9 + 7.0, 1e9 + 13.0, 1e9 + 16.0]
-            .into_iter()
-            .collect();
+        let r: Replicates = [1e9 + 4.0, 1e9 + 7.0, 1e9 + 13.0, 1e9 + 16.0].into_iter().collect();
         assert_eq!(r.variance(), Some(30.0));
     }
 
     #[test]
     fn too_few_say_nothing() {
         let mut r = Replicates::new();
-        assert_eq!(
-            (r.mean(), r.std_error(), r.half_width(0.95)),
-            (None, None, None)
-        );
+        assert_eq!((r.mean(), r.std_error(), r.half_width(0.95)), (None, None, None));
         r.push(3.0);
-        assert_eq!(
-            (r.mean(), r.std_error(), r.interval(0.95)),
-            (Some(3.0), None, None)
-        );
+        assert_eq!((r.mean(), r.std_error(), r.interval(0.95)), (Some(3.0), None, None));
         r.merge(&Replicates::new());
         assert_eq!(r.len(), 1);
     }

@@ -7,10 +7,7 @@
 ///
 /// If `family_level` is outside (0, 1) or there are no comparisons.
 pub fn sidak_level(family_level: f64, comparisons: usize) -> f64 {
-    assert!(
-        family_level > 0.0 && family_level < 1.0,
-        "a level lies strictly between 0 and 1, not {family_level}"
-    );
+    assert!(family_level > 0.0 && family_level < 1.0, "a level lies strictly between 0 and 1, not {family_level}");
     assert!(comparisons > 0, "without comparisons there is no level");
     -((-family_level).ln_1p() / comparisons as f64).exp_m1()
 }

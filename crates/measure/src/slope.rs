@@ -31,9 +31,7 @@ pub enum SlopeError {
     #[error("{0} points: a slope with an interval needs at least three")]
     TooFew(usize),
     /// A coordinate has no logarithm, or a standard error is not above zero.
-    #[error(
-        "point {index}: x = {x}, y = {y}: both (and a given standard error) must be finite and above zero"
-    )]
+    #[error("point {index}: x = {x}, y = {y}: both (and a given standard error) must be finite and above zero")]
     NoLogarithm {
         /// Index of the point.
         index: usize,
@@ -60,17 +58,9 @@ pub fn fit_log_log(x: &[f64], y: &[f64]) -> Result<LogLogFit, SlopeError> {
 /// If the points scatter more than their errors explain, the interval is widened by the ratio; it is never narrowed.
 ///
 /// *Numerics:* the error of ln y is taken as std_error / y, good where that is below about a third.
-pub fn fit_log_log_weighted(
-    x: &[f64],
-    y: &[f64],
-    std_errors: &[f64],
-) -> Result<LogLogFit, SlopeError> {
+pub fn fit_log_log_weighted(x: &[f64], y: &[f64], std_errors: &[f64]) -> Result<LogLogFit, SlopeError> {
     check(x, y, std_errors)?;
-    let weights: Vec<f64> = y
-        .iter()
-        .zip(std_errors)
-        .map(|(y, s)| (y / s).powi(2))
-        .collect();
+    let weights: Vec<f64> = y.iter().zip(std_errors).map(|(y, s)| (y / s).powi(2)).collect();
     let line = Line::through(x, y, &weights)?;
     let excess = line.chi_square / line.degrees_of_freedom() as f64;
     Ok(line.fit(excess.max(1.0), Some(excess.sqrt())))
@@ -83,11 +73,7 @@ impl LogLogFit {
     ///
     /// If `confidence` is outside (0, 1).
     pub fn slope_interval(&self, confidence: f64) -> Interval {
-        Interval::around(
-            self.slope,
-            self.t(confidence) * self.slope_std_error,
-            confidence,
-        )
+        Interval::around(self.slope, self.t(confidence) * self.slope_std_error, confidence)
     }
 
     /// The law at `x` (above zero), in y's unit, with the interval of the law there (not of a further point).
@@ -100,16 +86,8 @@ impl LogLogFit {
     pub fn predict(&self, x: f64, confidence: f64) -> Interval {
         let from_centre = x.ln() - self.centre;
         let middle = self.level + self.slope * from_centre;
-        let half = self.t(confidence)
-            * self
-                .level_std_error
-                .hypot(self.slope_std_error * from_centre);
-        Interval {
-            value: middle.exp(),
-            low: (middle - half).exp(),
-            high: (middle + half).exp(),
-            confidence,
-        }
+        let half = self.t(confidence) * self.level_std_error.hypot(self.slope_std_error * from_centre);
+        Interval { value: middle.exp(), low: (middle - half).exp(), high: (middle + half).exp(), confidence }
     }
 
     /// The x at which the law reaches `y` (above zero), with Fieller's interval (1954).
@@ -131,12 +109,7 @@ impl LogLogFit {
         let c = rise * rise - (t * self.level_std_error).powi(2);
         let root = (b * b - a * c).max(0.0).sqrt();
         let at = |d: f64| (self.centre + d).exp();
-        Some(Interval {
-            value: at(rise / self.slope),
-            low: at((b - root) / a),
-            high: at((b + root) / a),
-            confidence,
-        })
+        Some(Interval { value: at(rise / self.slope), low: at((b - root) / a), high: at((b + root) / a), confidence })
     }
 
     fn t(&self, confidence: f64) -> f64 {
@@ -168,15 +141,7 @@ impl Line {
         }
         let slope = sum(&|i| (x[i] - centre) * (y[i] - level)) / spread;
         let chi_square = sum(&|i| (y[i] - level - slope * (x[i] - centre)).powi(2));
-        Ok(Line {
-            points: x.len(),
-            weight,
-            centre,
-            level,
-            slope,
-            spread,
-            chi_square,
-        })
+        Ok(Line { points: x.len(), weight, centre, level, slope, spread, chi_square })
     }
 
     fn degrees_of_freedom(&self) -> usize {
@@ -206,11 +171,7 @@ fn check(x: &[f64], y: &[f64], std_errors: &[f64]) -> Result<(), SlopeError> {
     }
     let good = |v: f64| v > 0.0 && v.is_finite();
     match (0..x.len()).find(|&i| !(good(x[i]) && good(y[i]) && good(std_errors[i]))) {
-        Some(index) => Err(SlopeError::NoLogarithm {
-            index,
-            x: x[index],
-            y: y[index],
-        }),
+        Some(index) => Err(SlopeError::NoLogarithm { index, x: x[index], y: y[index] }),
         None => Ok(()),
     }
 }
@@ -238,10 +199,7 @@ mod tests {
         assert!((fit.slope - 0.6).abs() < 1e-12);
         assert!((fit.slope_std_error - 0.02f64.sqrt()).abs() < 1e-12);
         assert_eq!((fit.degrees_of_freedom, fit.birge_ratio), (2, None));
-        assert!(
-            (fit.slope_interval(0.95).half_width() - 4.302652729911275 * 0.02f64.sqrt()).abs()
-                < 1e-8
-        );
+        assert!((fit.slope_interval(0.95).half_width() - 4.302652729911275 * 0.02f64.sqrt()).abs() < 1e-8);
     }
 
     /// With equal relative errors s the slope's error is s / sqrt(sum of squared distances), unless points scatter.
@@ -272,26 +230,10 @@ mod tests {
 
     #[test]
     fn what_cannot_be_fitted_is_refused() {
-        assert_eq!(
-            fit_log_log(&[1.0, 2.0], &[1.0, 2.0]),
-            Err(SlopeError::TooFew(2))
-        );
-        assert_eq!(
-            fit_log_log(&[3.0; 4], &[1.0, 2.0, 3.0, 4.0]),
-            Err(SlopeError::Vertical)
-        );
-        assert_eq!(
-            fit_log_log(&[1.0, 2.0, 3.0], &[1.0]),
-            Err(SlopeError::Length)
-        );
+        assert_eq!(fit_log_log(&[1.0, 2.0], &[1.0, 2.0]), Err(SlopeError::TooFew(2)));
+        assert_eq!(fit_log_log(&[3.0; 4], &[1.0, 2.0, 3.0, 4.0]), Err(SlopeError::Vertical));
+        assert_eq!(fit_log_log(&[1.0, 2.0, 3.0], &[1.0]), Err(SlopeError::Length));
         let zero = fit_log_log(&[1.0, 2.0, 3.0], &[1.0, 0.0, f64::NAN]);
-        assert_eq!(
-            zero,
-            Err(SlopeError::NoLogarithm {
-                index: 1,
-                x: 2.0,
-                y: 0.0
-            })
-        );
+        assert_eq!(zero, Err(SlopeError::NoLogarithm { index: 1, x: 2.0, y: 0.0 }));
     }
 }

@@ -37,25 +37,14 @@ pub fn welch_test(first: &Replicates, second: &Replicates) -> Option<Welch> {
     let std_error = (a + b).sqrt();
     if std_error == 0.0 {
         let p_value = if difference == 0.0 { 1.0 } else { 0.0 };
-        return Some(Welch {
-            difference,
-            std_error,
-            degrees_of_freedom: f64::INFINITY,
-            p_value,
-        });
+        return Some(Welch { difference, std_error, degrees_of_freedom: f64::INFINITY, p_value });
     }
     // Shares of the variance, so that tiny values do not underflow when squared.
     let (share_a, share_b) = (a / (a + b), b / (a + b));
-    let inverse = share_a.powi(2) / first.degrees_of_freedom()
-        + share_b.powi(2) / second.degrees_of_freedom();
+    let inverse = share_a.powi(2) / first.degrees_of_freedom() + share_b.powi(2) / second.degrees_of_freedom();
     let degrees_of_freedom = 1.0 / inverse;
     let p_value = student_t_outside((difference / std_error).abs(), degrees_of_freedom);
-    Some(Welch {
-        difference,
-        std_error,
-        degrees_of_freedom,
-        p_value,
-    })
+    Some(Welch { difference, std_error, degrees_of_freedom, p_value })
 }
 
 #[cfg(test)]
@@ -65,12 +54,10 @@ mod tests {
     /// The third worked example of Wikipedia's article "Welch's t-test": t = -2.22, 24.5 degrees, p = 0.036.
     #[test]
     fn agrees_with_a_published_example() {
-        let a: Replicates = [19.8, 20.4, 19.6, 17.8, 18.5, 18.9, 18.3, 18.9, 19.5, 22.0]
-            .into_iter()
-            .collect();
+        let a: Replicates = [19.8, 20.4, 19.6, 17.8, 18.5, 18.9, 18.3, 18.9, 19.5, 22.0].into_iter().collect();
         let b: Replicates = [
-            28.2, 26.6, 20.1, 23.3, 25.2, 22.1, 17.7, 27.6, 20.6, 13.7, 23.2, 17.5, 20.6, 18.0,
-            23.9, 21.6, 24.3, 20.4, 24.0, 13.2,
+            28.2, 26.6, 20.1, 23.3, 25.2, 22.1, 17.7, 27.6, 20.6, 13.7, 23.2, 17.5, 20.6, 18.0, 23.9, 21.6, 24.3, 20.4,
+            24.0, 13.2,
         ]
         .into_iter()
         .collect();

@@ -4,8 +4,7 @@
 //! raises a false alarm with probability below 1e-5.
 
 use photonlab_measure::{
-    Replicates, binomial_interval, chi_square_test, fit_log_log_weighted, kolmogorov_smirnov_test,
-    welch_test,
+    Replicates, binomial_interval, chi_square_test, fit_log_log_weighted, kolmogorov_smirnov_test, welch_test,
 };
 
 const SETS: u64 = 4000;
@@ -34,10 +33,7 @@ fn assert_rate(seed: u64, probability: f64, mut happens: impl FnMut(&mut Random)
     let mut random = Random(seed);
     let count = (0..SETS).filter(|_| happens(&mut random)).count() as u64;
     let rate = binomial_interval(count, SETS, 1.0 - 1e-6);
-    assert!(
-        rate.contains(probability),
-        "{rate:?} does not contain {probability}"
-    );
+    assert!(rate.contains(probability), "{rate:?} does not contain {probability}");
 }
 
 #[test]
@@ -53,10 +49,7 @@ fn welch_intervals_of_unequal_sets_cover() {
     assert_rate(2, CONFIDENCE, |random| {
         let a: Replicates = (0..10).map(|_| 2.0 + random.normal()).collect();
         let b: Replicates = (0..30).map(|_| 1.0 + 5.0 * random.normal()).collect();
-        welch_test(&a, &b)
-            .unwrap()
-            .interval(CONFIDENCE)
-            .contains(1.0)
+        welch_test(&a, &b).unwrap().interval(CONFIDENCE).contains(1.0)
     });
 }
 

@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use photonlab_measure::{
-    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record,
-    RecordError, Row, Run, Series, SeriesKind, Verdict, json_number,
+    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record, RecordError, Row, Run, Series,
+    SeriesKind, Verdict, json_number,
 };
 
 fn example() -> Record {
@@ -30,16 +30,8 @@ fn example() -> Record {
             seconds: 3.5,
         },
         seeds: vec![1, u64::MAX],
-        comparisons: vec![Comparison::judge(
-            "ratio to truth",
-            "1",
-            Expected::exact(0.25, "A4"),
-            Some(measured),
-        )],
-        rows: vec![Row::from([
-            ("seed".into(), 1.into()),
-            ("ratio".into(), json_number("ratio", 0.2502).unwrap()),
-        ])],
+        comparisons: vec![Comparison::judge("ratio to truth", "1", Expected::exact(0.25, "A4"), Some(measured))],
+        rows: vec![Row::from([("seed".into(), 1.into()), ("ratio".into(), json_number("ratio", 0.2502).unwrap())])],
         figures: vec![FigureData {
             id: "ratio".into(),
             title: "Ratio to truth".into(),
@@ -52,11 +44,7 @@ fn example() -> Record {
                 points: vec![Point::measured(0.05, measured), Point::new(0.1, 0.25)],
             }],
         }],
-        images: vec![ImageEntry {
-            title: "plane".into(),
-            path: "images/plane.png".into(),
-            caption: "Even.".into(),
-        }],
+        images: vec![ImageEntry { title: "plane".into(), path: "images/plane.png".into(), caption: "Even.".into() }],
         verdict: Verdict::DoesNotHold,
         reason: "taken literally it reads a quarter of the truth".into(),
     }
@@ -67,8 +55,7 @@ struct Folder(PathBuf);
 
 impl Folder {
     fn new(name: &str) -> Self {
-        let path =
-            std::env::temp_dir().join(format!("photonlab-record-{name}-{}", std::process::id()));
+        let path = std::env::temp_dir().join(format!("photonlab-record-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         Folder(path)
     }
@@ -87,16 +74,8 @@ fn a_record_comes_back_as_it_was() {
     fs::write(&path, "an earlier run").unwrap();
     example().save(&path).unwrap();
     assert_eq!(Record::load(&path).unwrap(), example());
-    assert!(
-        fs::read_to_string(&path)
-            .unwrap()
-            .contains("\"does not hold\"")
-    );
-    assert_eq!(
-        fs::read_dir(&folder.0).unwrap().count(),
-        1,
-        "a draft was left behind"
-    );
+    assert!(fs::read_to_string(&path).unwrap().contains("\"does not hold\""));
+    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 1, "a draft was left behind");
 }
 
 #[test]
@@ -107,12 +86,7 @@ fn a_refused_record_leaves_the_old_file() {
     let mut bad = example();
     bad.figures[0].series[0].points[1].y = f64::NAN;
     let refused = bad.save(&path).unwrap_err();
-    assert!(
-        refused
-            .to_string()
-            .contains("figures[0].series[0].points[1].y is NaN"),
-        "{refused}"
-    );
+    assert!(refused.to_string().contains("figures[0].series[0].points[1].y is NaN"), "{refused}");
     assert_eq!(Record::load(&path).unwrap(), example());
 }
 
@@ -130,14 +104,8 @@ fn what_is_wrong_is_named() {
     assert_eq!(wrong(|r| r.run.date = "2026-13-01".into()), "run.date");
     assert_eq!(wrong(|r| r.figures.push(r.figures[0].clone())), "figures");
     assert_eq!(wrong(|r| r.images[0].path = "/tmp/x.png".into()), "images");
-    assert_eq!(
-        wrong(|r| r.comparisons[0].expected.low = 0.3),
-        "comparisons[0].expected"
-    );
-    assert_eq!(
-        wrong(|r| r.comparisons[0].measured.as_mut().unwrap().high = 0.0),
-        "comparisons[0].measured"
-    );
+    assert_eq!(wrong(|r| r.comparisons[0].expected.low = 0.3), "comparisons[0].expected");
+    assert_eq!(wrong(|r| r.comparisons[0].measured.as_mut().unwrap().high = 0.0), "comparisons[0].measured");
 }
 
 #[test]
@@ -150,26 +118,14 @@ fn a_file_that_is_no_record_says_where() {
     let text = serde_json::to_string_pretty(&example()).unwrap();
     fs::write(&path, text.replacen("\"question\"", "\"qestion\"", 1)).unwrap();
     let typo = Record::load(&path).unwrap_err().to_string();
-    assert!(
-        typo.contains("broken.json") && typo.contains("qestion") && typo.contains("line"),
-        "{typo}"
-    );
+    assert!(typo.contains("broken.json") && typo.contains("qestion") && typo.contains("line"), "{typo}");
     fs::write(&path, text.replacen("\"does not hold\"", "\"fails\"", 1)).unwrap();
-    assert!(
-        Record::load(&path)
-            .unwrap_err()
-            .to_string()
-            .contains("unknown variant `fails`")
-    );
+    assert!(Record::load(&path).unwrap_err().to_string().contains("unknown variant `fails`"));
 }
 
 #[test]
 fn a_missing_folder_is_a_clear_error() {
     let folder = Folder::new("nowhere");
-    let error = example()
-        .save(&folder.0.join("no/such/record.json"))
-        .unwrap_err();
-    assert!(
-        matches!(error, RecordError::Write { .. }) && error.to_string().contains("record.json")
-    );
+    let error = example().save(&folder.0.join("no/such/record.json")).unwrap_err();
+    assert!(matches!(error, RecordError::Write { .. }) && error.to_string().contains("record.json"));
 }

@@ -64,11 +64,7 @@ mod tests {
             let s = (1.0 - z * z).sqrt();
             let v = [s * phi.cos(), s * phi.sin(), z];
             let u = PackedDirection::pack(v).unpack().map(f64::from);
-            let cross = [
-                v[1] * u[2] - v[2] * u[1],
-                v[2] * u[0] - v[0] * u[2],
-                v[0] * u[1] - v[1] * u[0],
-            ];
+            let cross = [v[1] * u[2] - v[2] * u[1], v[2] * u[0] - v[0] * u[2], v[0] * u[1] - v[1] * u[0]];
             let sine = cross.iter().map(|c| c * c).sum::<f64>().sqrt();
             assert!(sine < 1e-4, "{v:?} came back as {u:?}");
         }
@@ -76,12 +72,7 @@ mod tests {
 
     #[test]
     fn axes_survive() {
-        for v in [
-            [1.0, 0.0, 0.0],
-            [0.0, -1.0, 0.0],
-            [0.0, 0.0, 1.0],
-            [0.0, 0.0, -1.0],
-        ] {
+        for v in [[1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]] {
             let u = PackedDirection::pack(v).unpack();
             for axis in 0..3 {
                 assert!((f64::from(u[axis]) - v[axis]).abs() < 1e-6);

@@ -34,18 +34,10 @@ impl Quantity {
     /// The same quantity in the wanted system.
     pub fn in_system(self, system: UnitSystem) -> Self {
         match (self, system) {
-            (Quantity::Irradiance | Quantity::Illuminance, UnitSystem::Radiometric) => {
-                Quantity::Irradiance
-            }
-            (Quantity::Irradiance | Quantity::Illuminance, UnitSystem::Photometric) => {
-                Quantity::Illuminance
-            }
-            (Quantity::Radiance | Quantity::Luminance, UnitSystem::Radiometric) => {
-                Quantity::Radiance
-            }
-            (Quantity::Radiance | Quantity::Luminance, UnitSystem::Photometric) => {
-                Quantity::Luminance
-            }
+            (Quantity::Irradiance | Quantity::Illuminance, UnitSystem::Radiometric) => Quantity::Irradiance,
+            (Quantity::Irradiance | Quantity::Illuminance, UnitSystem::Photometric) => Quantity::Illuminance,
+            (Quantity::Radiance | Quantity::Luminance, UnitSystem::Radiometric) => Quantity::Radiance,
+            (Quantity::Radiance | Quantity::Luminance, UnitSystem::Photometric) => Quantity::Luminance,
         }
     }
 

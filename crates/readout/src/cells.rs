@@ -43,24 +43,14 @@ impl Cell {
         let film = sensor.film;
         (0..film.height)
             .flat_map(|row| (0..film.width).map(move |column| [column, row]))
-            .map(|cell| Cell {
-                sensor: index,
-                cell,
-                target: target(sensor),
-            })
+            .map(|cell| Cell { sensor: index, cell, target: target(sensor) })
             .collect()
     }
 
     /// The cells of all meters.
     pub fn of_meters(scene: &Scene) -> Vec<Cell> {
-        let meters = scene
-            .sensors
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| matches!(s.receiver, Receiver::Meter(_)));
-        meters
-            .flat_map(|(index, _)| Cell::of_sensor(scene, index))
-            .collect()
+        let meters = scene.sensors.iter().enumerate().filter(|(_, s)| matches!(s.receiver, Receiver::Meter(_)));
+        meters.flat_map(|(index, _)| Cell::of_sensor(scene, index)).collect()
     }
 
     /// What is read, in watts; the caller relabels.
@@ -74,38 +64,22 @@ impl Cell {
 
 fn target(sensor: &Sensor) -> Target {
     match &sensor.receiver {
-        Receiver::Camera(camera) => Target::Pixel {
-            camera: camera.clone(),
-            film: sensor.film,
-        },
-        Receiver::Meter(Meter::Radiancemeter { origin, direction }) => {
-            Target::Along(Ray::new(*origin, *direction))
-        }
-        Receiver::Meter(Meter::Irradiancemeter { shape }) => Target::Patch {
-            shape: *shape,
-            film: sensor.film,
-        },
+        Receiver::Camera(camera) => Target::Pixel { camera: camera.clone(), film: sensor.film },
+        Receiver::Meter(Meter::Radiancemeter { origin, direction }) => Target::Along(Ray::new(*origin, *direction)),
+        Receiver::Meter(Meter::Irradiancemeter { shape }) => Target::Patch { shape: *shape, film: sensor.film },
     }
 }
 
 /// The ray through a point of a pixel, from the near clipping plane, and its length to the far one.
 pub(crate) fn pixel_ray(camera: &Camera, film: Film, cell: [u32; 2], xi: [f64; 2]) -> (Ray, f64) {
-    let across =
-        (f64::from(cell[0]) + xi[0]) / f64::from(film.width) - camera.principal_point_offset[0];
-    let down =
-        (f64::from(cell[1]) + xi[1]) / f64::from(film.height) - camera.principal_point_offset[1];
-    let local = DVec3::new(
-        (1.0 - 2.0 * across) * camera.tan_half_width,
-        (1.0 - 2.0 * down) * camera.tan_half_height,
-        1.0,
-    );
+    let across = (f64::from(cell[0]) + xi[0]) / f64::from(film.width) - camera.principal_point_offset[0];
+    let down = (f64::from(cell[1]) + xi[1]) / f64::from(film.height) - camera.principal_point_offset[1];
+    let local =
+        DVec3::new((1.0 - 2.0 * across) * camera.tan_half_width, (1.0 - 2.0 * down) * camera.tan_half_height, 1.0);
     let stretch = local.length();
     let direction = camera.to_world.transform_vector3(local).normalize();
     let origin = camera.to_world.translation + camera.near_clip * stretch * direction;
-    (
-        Ray::new(origin, direction),
-        (camera.far_clip - camera.near_clip) * stretch,
-    )
+    (Ray::new(origin, direction), (camera.far_clip - camera.near_clip) * stretch)
 }
 
 #[cfg(test)]
@@ -123,16 +97,10 @@ mod tests {
             near_clip: 0.1,
             far_clip: 10.0,
         };
-        let film = Film {
-            width: 4,
-            height: 2,
-        };
+        let film = Film { width: 4, height: 2 };
         let (ray, reach) = pixel_ray(&camera, film, [0, 0], [0.0, 0.0]);
         let expected = DVec3::new(1.0, 0.5, 1.0);
-        assert!(
-            (ray.direction - expected.normalize()).length() < 1e-12,
-            "+x is left and +y is up"
-        );
+        assert!((ray.direction - expected.normalize()).length() < 1e-12, "+x is left and +y is up");
         assert!((ray.origin - 0.1 * expected).length() < 1e-12);
         assert!((reach - 9.9 * expected.length()).abs() < 1e-12);
     }

@@ -54,9 +54,7 @@ mod tests {
         let mean: f64 = (0..n)
             .map(|i| {
                 let p = point(i, &[0.3; DIMENSIONS]);
-                p.iter()
-                    .map(|x| (std::f64::consts::TAU * x).cos() + x)
-                    .sum::<f64>()
+                p.iter().map(|x| (std::f64::consts::TAU * x).cos() + x).sum::<f64>()
             })
             .sum::<f64>()
             / n as f64;

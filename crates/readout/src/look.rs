@@ -33,12 +33,7 @@ pub(crate) struct Sample<const C: usize> {
 impl<const C: usize> Look<'_, C> {
     /// The offsets of a cell's quasi-random points in this pass.
     pub(crate) fn shift(&self, number: usize) -> [f64; kronecker::DIMENSIONS] {
-        let mut stream = Stream::new(
-            self.settings.seed,
-            Purpose::Offsets,
-            self.pass,
-            number as u64,
-        );
+        let mut stream = Stream::new(self.settings.seed, Purpose::Offsets, self.pass, number as u64);
         std::array::from_fn(|_| stream.next())
     }
 
@@ -57,62 +52,24 @@ impl<const C: usize> Look<'_, C> {
         let [x, y, z, ..] = kronecker::point(sample * rays, shift);
         let (start, reach) = match &cell.target {
             Target::Patch { shape, film } => {
-                let point = self.world.point_in_cell(
-                    *shape,
-                    cell.cell,
-                    [film.width, film.height],
-                    [x, y, z],
-                );
-                let seed = Seed {
-                    first,
-                    sample,
-                    shift,
-                };
-                return Sample {
-                    light: self.irradiance(&point, point.normal, 0, seed, scratch),
-                    dark: false,
-                };
+                let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
+                let seed = Seed { first, sample, shift };
+                return Sample { light: self.irradiance(&point, point.normal, 0, seed, scratch), dark: false };
             }
             Target::Along(ray) => (*ray, f64::INFINITY),
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y]),
         };
-        let start = Start {
-            ray: start,
-            from: None,
-            reach,
-            used: 0,
-        };
+        let start = Start { ray: start, from: None, reach, used: 0 };
         let landing = follow(self.world, self.lamps, &self.limits(), start, &mut eye);
-        let emitted = landing.emitted
-            + landing
-                .first_emission
-                .map_or(Colour::ZERO, |(_, radiance)| radiance);
-        let mut light = Light {
-            irradiance: emitted,
-            ..Light::default()
-        };
-        let diffuse = landing
-            .diffuse
-            .filter(|(_, reflectance, weight)| !(*reflectance * *weight).is_zero());
+        let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |(_, radiance)| radiance);
+        let mut light = Light { irradiance: emitted, ..Light::default() };
+        let diffuse = landing.diffuse.filter(|(_, reflectance, weight)| !(*reflectance * *weight).is_zero());
         if let Some((hit, reflectance, weight)) = diffuse {
-            let seed = Seed {
-                first,
-                sample,
-                shift,
-            };
-            let found = self.irradiance(
-                &hit.point,
-                hit.facing_normal(),
-                landing.segments,
-                seed,
-                scratch,
-            );
+            let seed = Seed { first, sample, shift };
+            let found = self.irradiance(&hit.point, hit.facing_normal(), landing.segments, seed, scratch);
             light.add(&found.weighted(reflectance * weight * (1.0 / PI)));
         }
-        Sample {
-            light,
-            dark: diffuse.is_none() && emitted.is_zero(),
-        }
+        Sample { light, dark: diffuse.is_none() && emitted.is_zero() }
     }
 
     fn stream(&self, index: u64) -> Stream {
@@ -120,10 +77,7 @@ impl<const C: usize> Look<'_, C> {
     }
 
     fn limits(&self) -> EyeLimits {
-        EyeLimits {
-            max_segments: self.settings.limits.max_segments,
-            max_specular: self.settings.limits.max_specular,
-        }
+        EyeLimits { max_segments: self.settings.limits.max_segments, max_specular: self.settings.limits.max_specular }
     }
 
     /// The mean over the gather rays of one point.
@@ -138,21 +92,13 @@ impl<const C: usize> Look<'_, C> {
         let rays = self.settings.gather_rays;
         let mut light = Light::default();
         for ray in 0..rays {
-            let [_, _, _, rest @ ..] =
-                kronecker::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
-            let mut stream = self
-                .stream(seed.first + 1 + u64::from(ray))
-                .with_prefix(rest);
+            let [_, _, _, rest @ ..] = kronecker::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
+            let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix(rest);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {
-                    let maps = matches!(self.settings.method, Method::FinalGather { .. })
-                        .then(|| self.maps.gather_maps());
-                    let gatherer = Gatherer {
-                        world: self.world,
-                        lamps: self.lamps,
-                        maps,
-                        limits: self.limits(),
-                    };
+                    let maps =
+                        matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps());
+                    let gatherer = Gatherer { world: self.world, lamps: self.lamps, maps, limits: self.limits() };
                     gatherer.irradiance(at, normal, used, &mut stream, scratch)
                 }
                 Method::Nearest { .. } | Method::Radius { .. } => {
@@ -170,29 +116,16 @@ impl<const C: usize> Look<'_, C> {
     }
 
     /// The density estimate at the point itself.
-    fn from_map(
-        &self,
-        at: &SurfacePoint,
-        normal: DVec3,
-        used: u32,
-        scratch: &mut Scratch,
-    ) -> Light<C> {
+    fn from_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };
         let bandwidth = match self.settings.method {
-            Method::Nearest { k } => Bandwidth::Nearest {
-                k,
-                max_radius: f64::INFINITY,
-            },
+            Method::Nearest { k } => Bandwidth::Nearest { k, max_radius: f64::INFINITY },
             _ => Bandwidth::Radius(self.maps.surface_radius),
         };
         let tests = Tests {
-            max_segments: self
-                .settings
-                .limits
-                .max_segments
-                .map(|max| max.saturating_sub(used)),
+            max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
             ..Tests::default()
         };
         self.estimate(map, bandwidth, &tests, at, normal, scratch)
@@ -207,13 +140,7 @@ impl<const C: usize> Look<'_, C> {
         normal: DVec3,
         scratch: &mut Scratch,
     ) -> Light<C> {
-        let found = map.gather(
-            &gather_point(at, normal),
-            bandwidth,
-            self.settings.area,
-            tests,
-            scratch,
-        );
+        let found = map.gather(&gather_point(at, normal), bandwidth, self.settings.area, tests, scratch);
         let reach = match bandwidth {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,
@@ -222,11 +149,7 @@ impl<const C: usize> Look<'_, C> {
         Light {
             irradiance: found.irradiance,
             bias: found.bias,
-            unresolved: if unresolved {
-                found.irradiance
-            } else {
-                Colour::ZERO
-            },
+            unresolved: if unresolved { found.irradiance } else { Colour::ZERO },
             photons: found.photons as f64,
         }
     }

@@ -74,14 +74,9 @@ impl MapHeader {
 impl<const C: usize> MapFile<C> {
     /// Writes the map beside its final name and renames it, so that no half-written map is left.
     pub fn save(&self, path: &Path) -> Result<(), MapFileError> {
-        let io = |source| MapFileError::Io {
-            path: path.into(),
-            source,
-        };
+        let io = |source| MapFileError::Io { path: path.into(), source };
         let partial = path.with_extension("partial");
-        let written = self
-            .write(&partial)
-            .and_then(|()| std::fs::rename(&partial, path));
+        let written = self.write(&partial).and_then(|()| std::fs::rename(&partial, path));
         written.map_err(|source| {
             let _ = std::fs::remove_file(&partial);
             io(source)
@@ -93,16 +88,11 @@ impl<const C: usize> MapFile<C> {
         let mut bytes = Bytes::of(path)?;
         let header = header(&mut bytes)?;
         if header.channels as usize != C {
-            return Err(bytes.unusable(&format!(
-                "it has {} channels and the scene {C}",
-                header.channels
-            )));
+            return Err(bytes.unusable(&format!("it has {} channels and the scene {C}", header.channels)));
         }
         let surfaces = bytes.u32()? as usize;
         let passes = bytes.u32()?;
-        let passes = (0..passes)
-            .map(|_| pass(&mut bytes, surfaces))
-            .collect::<Result<_, _>>()?;
+        let passes = (0..passes).map(|_| pass(&mut bytes, surfaces)).collect::<Result<_, _>>()?;
         if bytes.at != bytes.data.len() {
             return Err(bytes.unusable("it is longer than its contents"));
         }
@@ -110,10 +100,7 @@ impl<const C: usize> MapFile<C> {
     }
 
     fn write(&self, path: &Path) -> io::Result<()> {
-        let mut out = Hashing {
-            file: io::BufWriter::new(File::create(path)?),
-            hash: Xxh3::new(),
-        };
+        let mut out = Hashing { file: io::BufWriter::new(File::create(path)?), hash: Xxh3::new() };
         let header = &self.header;
         out.put(MAGIC)?;
         out.put(&VERSION.to_le_bytes())?;
@@ -121,24 +108,13 @@ impl<const C: usize> MapFile<C> {
         out.put(&header.identity.to_le_bytes())?;
         out.put(&header.seed.to_le_bytes())?;
         let bit = |class: PathClass| u32::from(header.classes.has(class)) << class as u32;
-        out.put(
-            &PathClass::ALL
-                .into_iter()
-                .map(bit)
-                .sum::<u32>()
-                .to_le_bytes(),
-        )?;
+        out.put(&PathClass::ALL.into_iter().map(bit).sum::<u32>().to_le_bytes())?;
         out.put(&header.limits.max_segments.unwrap_or(0).to_le_bytes())?;
         out.put(&header.limits.max_specular.to_le_bytes())?;
-        let surfaces = self
-            .passes
-            .first()
-            .map_or(0, |pass| pass.ledger.surfaces.len());
+        let surfaces = self.passes.first().map_or(0, |pass| pass.ledger.surfaces.len());
         out.put(&(surfaces as u32).to_le_bytes())?;
         out.put(&(self.passes.len() as u32).to_le_bytes())?;
-        self.passes
-            .iter()
-            .try_for_each(|pass| write_pass(&mut out, pass))?;
+        self.passes.iter().try_for_each(|pass| write_pass(&mut out, pass))?;
         let digest = out.hash.digest128().to_le_bytes();
         out.file.write_all(&digest)?;
         out.file.into_inner()?.sync_all()
@@ -168,22 +144,10 @@ fn write_pass<const C: usize>(out: &mut Hashing, pass: &PassPhotons<C>) -> io::R
 /// Every flux of a ledger, in the order of the file.
 fn ledger_fields<const C: usize>(ledger: &mut Ledger<C>) -> Vec<&mut Colour<C>> {
     let mut fields = vec![&mut ledger.emitted];
-    for Book {
-        absorbed,
-        escaped,
-        cut_off,
-        roulette_gain,
-        roulette_loss,
-    } in &mut ledger.classes
-    {
+    for Book { absorbed, escaped, cut_off, roulette_gain, roulette_loss } in &mut ledger.classes {
         fields.extend([absorbed, escaped, cut_off, roulette_gain, roulette_loss]);
     }
-    for SurfaceBook {
-        incident,
-        outgoing,
-        absorbed,
-    } in &mut ledger.surfaces
-    {
+    for SurfaceBook { incident, outgoing, absorbed } in &mut ledger.surfaces {
         fields.extend([incident, outgoing, absorbed]);
     }
     fields
@@ -210,25 +174,15 @@ struct Bytes {
 impl Bytes {
     /// The contents of a map file without its hash, which is checked.
     fn of(path: &Path) -> Result<Self, MapFileError> {
-        let io = |source| MapFileError::Io {
-            path: path.into(),
-            source,
-        };
+        let io = |source| MapFileError::Io { path: path.into(), source };
         let mut file = File::open(path).map_err(io)?;
         if !file.metadata().map_err(io)?.is_file() {
-            return Err(MapFileError::Unusable {
-                path: path.into(),
-                what: "it is not a regular file".into(),
-            });
+            return Err(MapFileError::Unusable { path: path.into(), what: "it is not a regular file".into() });
         }
         // A foreign file is refused by its first bytes, before it is read into memory.
         let mut magic = [0; 8];
         let found = file.read(&mut magic).map_err(io)?;
-        let mut bytes = Self {
-            path: path.into(),
-            data: magic[..found].to_vec(),
-            at: 0,
-        };
+        let mut bytes = Self { path: path.into(), data: magic[..found].to_vec(), at: 0 };
         if magic != *MAGIC {
             return Err(bytes.unusable("it is not a photon map of photonlab"));
         }
@@ -246,17 +200,11 @@ impl Bytes {
     }
 
     fn unusable(&self, what: &str) -> MapFileError {
-        MapFileError::Unusable {
-            path: self.path.clone(),
-            what: what.into(),
-        }
+        MapFileError::Unusable { path: self.path.clone(), what: what.into() }
     }
 
     fn take<const N: usize>(&mut self) -> Result<[u8; N], MapFileError> {
-        let next = self
-            .data
-            .get(self.at..self.at + N)
-            .and_then(|bytes| bytes.try_into().ok());
+        let next = self.data.get(self.at..self.at + N).and_then(|bytes| bytes.try_into().ok());
         self.at += N;
         next.ok_or_else(|| self.unusable("it is cut short"))
     }
@@ -278,9 +226,7 @@ fn header(bytes: &mut Bytes) -> Result<MapHeader, MapFileError> {
     let _magic: [u8; 8] = bytes.take()?;
     let version = bytes.u32()?;
     if version != VERSION {
-        return Err(bytes.unusable(&format!(
-            "its version is {version} and this program reads {VERSION}"
-        )));
+        return Err(bytes.unusable(&format!("its version is {version} and this program reads {VERSION}")));
     }
     let channels = bytes.u32()?;
     let identity = u128::from_le_bytes(bytes.take()?);
@@ -294,22 +240,10 @@ fn header(bytes: &mut Bytes) -> Result<MapHeader, MapFileError> {
     };
     let max_segments = Some(bytes.u32()?).filter(|&n| n > 0);
     let max_specular = bytes.u32()?;
-    Ok(MapHeader {
-        channels,
-        identity,
-        seed,
-        classes,
-        limits: Limits {
-            max_segments,
-            max_specular,
-        },
-    })
+    Ok(MapHeader { channels, identity, seed, classes, limits: Limits { max_segments, max_specular } })
 }
 
-fn pass<const C: usize>(
-    bytes: &mut Bytes,
-    surfaces: usize,
-) -> Result<PassPhotons<C>, MapFileError> {
+fn pass<const C: usize>(bytes: &mut Bytes, surfaces: usize) -> Result<PassPhotons<C>, MapFileError> {
     let emitted = bytes.u64()?;
     let mut ledger = Ledger {
         emitted: Colour::ZERO,
@@ -337,18 +271,7 @@ fn pass<const C: usize>(
         let Some(&class) = PathClass::ALL.get((packed >> 16) as usize) else {
             return Err(bytes.unusable("it holds a path class that this program does not know"));
         };
-        photons.push(Photon {
-            flux,
-            direction,
-            normal,
-            class,
-            segments: packed as u16,
-        });
+        photons.push(Photon { flux, direction, normal, class, segments: packed as u16 });
     }
-    Ok(PassPhotons {
-        positions,
-        photons,
-        ledger,
-        emitted,
-    })
+    Ok(PassPhotons { positions, photons, ledger, emitted })
 }

@@ -46,12 +46,7 @@ pub fn trace_pass<const C: usize>(
     photons: u64,
 ) -> Result<PassPhotons<C>, ReadError> {
     let plan = EmissionPlan::new(lamps, photons)?;
-    let job = Job {
-        seed: settings.seed,
-        pass,
-        limits: settings.limits,
-        keep,
-    };
+    let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
     let traced = trace(world, lamps, &plan, &job)?;
     Ok(PassPhotons {
         positions: traced.positions,
@@ -78,12 +73,7 @@ pub(crate) struct Radii {
 
 impl<const C: usize> PassMaps<C> {
     pub(crate) fn none() -> Self {
-        Self {
-            surface: None,
-            surface_radius: 0.0,
-            caustic: None,
-            caustic_radius: 0.0,
-        }
+        Self { surface: None, surface_radius: 0.0, caustic: None, caustic_radius: 0.0 }
     }
 
     /// Builds what the method reads; chooses radii in the first pass and shrinks them in later ones.
@@ -110,41 +100,22 @@ impl<const C: usize> PassMaps<C> {
             Method::Radius { radius } | Method::FinalGather { radius } => radius,
             Method::Nearest { .. } | Method::Path => None,
         };
-        let count = if final_gather {
-            FINAL_GATHER_COUNT
-        } else {
-            DIRECT_VIEW_COUNT
-        };
+        let count = if final_gather { FINAL_GATHER_COUNT } else { DIRECT_VIEW_COUNT };
         let shrink = f64::from(pass + 1).powf(-SHRINK);
-        let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (
-            fixed, map,
-        ) {
+        let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {
             (Some(radius), _) => radius,
             (None, None) => 0.0,
-            (None, Some(map)) => {
-                *first.get_or_insert_with(|| first_radius(map, count, world)) * shrink
-            }
+            (None, Some(map)) => *first.get_or_insert_with(|| first_radius(map, count, world)) * shrink,
         };
         let surface_radius = radius(&surface, &mut radii.surface, count);
         let caustic_radius = radius(&caustic, &mut radii.caustic, CAUSTIC_COUNT);
-        Ok(Self {
-            surface,
-            surface_radius,
-            caustic,
-            caustic_radius,
-        })
+        Ok(Self { surface, surface_radius, caustic, caustic_radius })
     }
 
     pub(crate) fn gather_maps(&self) -> GatherMaps<'_, C> {
         GatherMaps {
-            surface: self.surface.as_ref().map(|map| MapWithRadius {
-                map,
-                radius: self.surface_radius,
-            }),
-            caustic: self.caustic.as_ref().map(|map| MapWithRadius {
-                map,
-                radius: self.caustic_radius,
-            }),
+            surface: self.surface.as_ref().map(|map| MapWithRadius { map, radius: self.surface_radius }),
+            caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius }),
         }
     }
 }
@@ -153,14 +124,8 @@ fn select<const C: usize>(
     pass: &PassPhotons<C>,
     wanted: impl Fn(PathClass) -> bool,
 ) -> (Vec<[f32; 3]>, Vec<Photon<C>>) {
-    let chosen = pass
-        .positions
-        .iter()
-        .zip(&pass.photons)
-        .filter(|(_, photon)| wanted(photon.class));
-    chosen
-        .map(|(position, photon)| (*position, *photon))
-        .unzip()
+    let chosen = pass.positions.iter().zip(&pass.photons).filter(|(_, photon)| wanted(photon.class));
+    chosen.map(|(position, photon)| (*position, *photon)).unzip()
 }
 
 /// The radius that holds about `count` photons, fewer where the map is small; a hundredth of the scene for a map with
@@ -168,6 +133,5 @@ fn select<const C: usize>(
 fn first_radius<const C: usize>(map: &PhotonMap<C>, count: usize, world: &World) -> f64 {
     let (low, high) = world.bounds();
     let count = count.min(map.len() / 4).max(2);
-    map.typical_radius(count, PROBES, &mut Scratch::default())
-        .unwrap_or(0.01 * (high - low).max_element())
+    map.typical_radius(count, PROBES, &mut Scratch::default()).unwrap_or(0.01 * (high - low).max_element())
 }

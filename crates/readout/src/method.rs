@@ -70,10 +70,7 @@ impl Settings {
         match (self.method, self.direct) {
             (Method::Path, _) => Classes::NONE,
             (Method::FinalGather { .. }, _) | (_, Direct::Photons) => Classes::ALL,
-            (_, Direct::Sampled) => Classes {
-                direct: false,
-                ..Classes::ALL
-            },
+            (_, Direct::Sampled) => Classes { direct: false, ..Classes::ALL },
         }
     }
 }

@@ -23,13 +23,7 @@ pub struct CellResult<const C: usize> {
 impl<const C: usize> Default for CellResult<C> {
     fn default() -> Self {
         let none = [Replicates::new(); C];
-        Self {
-            value: none,
-            bias: none,
-            unresolved: none,
-            photons: 0.0,
-            dark: true,
-        }
+        Self { value: none, bias: none, unresolved: none, photons: 0.0, dark: true }
     }
 }
 
@@ -47,11 +41,7 @@ impl<const C: usize> CellResult<C> {
 
     /// True if no light was found and darkness was not proved.
     pub fn found_nothing(&self) -> bool {
-        !self.dark
-            && self
-                .value
-                .iter()
-                .all(|v| v.mean().is_none_or(|mean| mean == 0.0))
+        !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
     }
 
     /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and all that was
@@ -71,11 +61,7 @@ impl<const C: usize> CellResult<C> {
     /// Share of the value that was gathered across an edge or onto another surface.
     pub fn unresolved_share(&self, channel: usize) -> f64 {
         let value = self.value[channel].mean().unwrap_or(0.0);
-        if value == 0.0 {
-            0.0
-        } else {
-            self.unresolved[channel].mean().unwrap_or(0.0) / value
-        }
+        if value == 0.0 { 0.0 } else { self.unresolved[channel].mean().unwrap_or(0.0) / value }
     }
 }
 
@@ -101,11 +87,7 @@ pub struct Outcome<const C: usize> {
 }
 
 /// The worst relative half-width over cells and channels (`measure`), or the RMS half-width over the mean (`render`).
-pub(crate) fn relative_error<const C: usize>(
-    cells: &[CellResult<C>],
-    confidence: f64,
-    rms: bool,
-) -> Option<f64> {
+pub(crate) fn relative_error<const C: usize>(cells: &[CellResult<C>], confidence: f64, rms: bool) -> Option<f64> {
     let passes = cells.first()?.value[0].len();
     if passes < 2 {
         return None;
@@ -113,20 +95,15 @@ pub(crate) fn relative_error<const C: usize>(
     // One quantile serves all cells.
     let t = student_t_quantile(confidence, (passes - 1) as f64);
     let half = |cell: &CellResult<C>, c: usize| {
-        let noise =
-            cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
-        let known = cell.bias[c].mean().unwrap_or(0.0).abs()
-            + cell.unresolved[c].mean().unwrap_or(0.0).abs();
+        let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
+        let known = cell.bias[c].mean().unwrap_or(0.0).abs() + cell.unresolved[c].mean().unwrap_or(0.0).abs();
         t * noise + known
     };
     let each = cells.iter().flat_map(|cell| (0..C).map(move |c| (cell, c)));
     if rms {
         let squares: f64 = each.clone().map(|(cell, c)| half(cell, c).powi(2)).sum();
         let count = (cells.len() * C) as f64;
-        let mean: f64 = each
-            .map(|(cell, c)| cell.value[c].mean().unwrap_or(0.0).abs())
-            .sum::<f64>()
-            / count;
+        let mean: f64 = each.map(|(cell, c)| cell.value[c].mean().unwrap_or(0.0).abs()).sum::<f64>() / count;
         return (mean > 0.0).then(|| (squares / count).sqrt() / mean);
     }
     each.filter(|(cell, _)| !cell.dark)

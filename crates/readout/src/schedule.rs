@@ -73,8 +73,7 @@ impl Share {
         match self {
             Share::Each(count) => count,
             Share::Total { total, passes } => {
-                let up_to =
-                    |p: u64| (u128::from(total) * u128::from(p) / u128::from(passes)) as u64;
+                let up_to = |p: u64| (u128::from(total) * u128::from(p) / u128::from(passes)) as u64;
                 up_to(pass + 1) - up_to(pass)
             }
         }
@@ -89,19 +88,13 @@ impl Schedule {
         let counted = photons.is_some() || wanted.samples.is_some() || wanted.passes.is_some();
         let open = wanted.target_error.is_some() || wanted.time_limit.is_some();
         let rays_per_cell = RAYS_PER_PASS / (cells.max(1) as u64 * u64::from(demands.gather_rays));
-        let samples_per_cell = rays_per_cell.clamp(
-            FEWEST_SAMPLES.min(demands.most_samples),
-            demands.most_samples,
-        );
+        let samples_per_cell = rays_per_cell.clamp(FEWEST_SAMPLES.min(demands.most_samples), demands.most_samples);
         let passes = (counted || !open).then(|| {
             let asked = wanted.passes.unwrap_or_else(|| {
                 // Where the error or the clock may end the run early, passes stay short.
                 let largest = if open { PHOTONS_PER_PASS } else { LARGEST_PASS };
                 let for_photons = photons.map_or(0, |n| n.div_ceil(largest));
-                let for_samples = wanted
-                    .samples
-                    .filter(|_| open)
-                    .map_or(0, |n| n.div_ceil(samples_per_cell));
+                let for_samples = wanted.samples.filter(|_| open).map_or(0, |n| n.div_ceil(samples_per_cell));
                 PASSES
                     .max(for_photons)
                     .max(for_samples)
@@ -114,11 +107,7 @@ impl Schedule {
             _ => Share::Each(each),
         };
         Self {
-            ends: Ends {
-                passes,
-                target_error: wanted.target_error,
-                time_limit: wanted.time_limit,
-            },
+            ends: Ends { passes, target_error: wanted.target_error, time_limit: wanted.time_limit },
             photons: if uses_photons {
                 share(photons, PHOTONS_PER_PASS.max(demands.fewest_photons))
             } else {
@@ -145,11 +134,7 @@ impl Schedule {
             Share::Each(count) if count > 0 => Share::Each((count / by).max(fewest)),
             other => other,
         };
-        Self {
-            photons: smaller(self.photons, self.fewest_photons),
-            samples: smaller(self.samples, 1),
-            ..*self
-        }
+        Self { photons: smaller(self.photons, self.fewest_photons), samples: smaller(self.samples, 1), ..*self }
     }
 }
 
@@ -157,45 +142,27 @@ impl Schedule {
 mod tests {
     use super::*;
 
-    const DEMANDS: Demands = Demands {
-        gather_rays: 1,
-        fewest_photons: 2,
-        most_samples: 1 << 13,
-    };
+    const DEMANDS: Demands = Demands { gather_rays: 1, fewest_photons: 2, most_samples: 1 << 13 };
 
     #[test]
     fn totals_are_met_exactly() {
         for (photons, samples) in [(1_000_003, 17), (16, 1), (100, 1000), (40_000_000, 5)] {
-            let wanted = Wanted {
-                photons: Some(photons),
-                samples: Some(samples),
-                ..Wanted::default()
-            };
+            let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
             let schedule = Schedule::new(&wanted, 6, &DEMANDS);
             let passes = schedule.ends.passes.unwrap();
-            assert_eq!(
-                (0..passes).map(|p| schedule.photons(p)).sum::<u64>(),
-                photons
+            assert_eq!((0..passes).map(|p| schedule.photons(p)).sum::<u64>(), photons);
+            assert_eq!((0..passes).map(|p| schedule.samples(p)).sum::<u64>(), samples);
+            assert!(
+                (0..passes)
+                    .all(|p| schedule.samples(p) > 0 && schedule.photons(p) <= LARGEST_PASS.max(photons / passes + 1))
             );
-            assert_eq!(
-                (0..passes).map(|p| schedule.samples(p)).sum::<u64>(),
-                samples
-            );
-            assert!((0..passes).all(|p| schedule.samples(p) > 0
-                && schedule.photons(p) <= LARGEST_PASS.max(photons / passes + 1)));
         }
     }
 
     #[test]
     fn a_target_alone_has_no_count() {
-        let wanted = Wanted {
-            target_error: Some(0.01),
-            ..Wanted::default()
-        };
+        let wanted = Wanted { target_error: Some(0.01), ..Wanted::default() };
         assert_eq!(Schedule::new(&wanted, 1, &DEMANDS).ends.passes, None);
-        assert_eq!(
-            Schedule::new(&Wanted::default(), 1, &DEMANDS).ends.passes,
-            Some(16)
-        );
+        assert_eq!(Schedule::new(&Wanted::default(), 1, &DEMANDS).ends.passes, Some(16));
     }
 }

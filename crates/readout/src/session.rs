@@ -77,17 +77,10 @@ pub struct Session<'w, const C: usize> {
 impl<const C: usize> Session<'_, C> {
     /// What the method asks of the schedule.
     pub fn demands(&self) -> Demands {
-        let from_map = matches!(
-            self.settings.method,
-            Method::Nearest { .. } | Method::Radius { .. }
-        );
+        let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
         Demands {
             gather_rays: self.settings.gather_rays,
-            fewest_photons: if self.uses_maps() {
-                self.lamps.lamps.len().max(1) as u64
-            } else {
-                0
-            },
+            fewest_photons: if self.uses_maps() { self.lamps.lamps.len().max(1) as u64 } else { 0 },
             // A density estimate at one point is the same however often it is made in one pass.
             most_samples: if from_map { 1 << 8 } else { 1 << 13 },
         }
@@ -117,13 +110,7 @@ impl<const C: usize> Session<'_, C> {
         let mut run = Run::new(cells.len());
         let passes = match source {
             Source::Trace => schedule.ends.passes,
-            Source::Map(file) => Some(
-                schedule
-                    .ends
-                    .passes
-                    .unwrap_or(u64::MAX)
-                    .min(file.passes.len() as u64),
-            ),
+            Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),
         };
         let mut next_look = PASSES_BEFORE_STOPPING;
         let mut longest = Duration::ZERO;
@@ -133,27 +120,17 @@ impl<const C: usize> Session<'_, C> {
             longest = longest.max(begun.elapsed());
             let done = run.passes;
             let looks = done >= next_look;
-            let error = looks
-                .then(|| relative_error(&run.cells, self.confidence, self.rms))
-                .flatten();
+            let error = looks.then(|| relative_error(&run.cells, self.confidence, self.rms)).flatten();
             observer.pass_done(done, start.elapsed(), error);
             if looks {
                 next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
             }
-            let reached = schedule
-                .ends
-                .target_error
-                .zip(error)
-                .is_some_and(|(target, error)| error <= target);
+            let reached = schedule.ends.target_error.zip(error).is_some_and(|(target, error)| error <= target);
             let stopped = if reached {
                 Some(Stopped::Target)
             } else if passes.unwrap_or(MOST_PASSES) <= done {
                 Some(Stopped::Count)
-            } else if schedule
-                .ends
-                .time_limit
-                .is_some_and(|limit| start.elapsed() + longest > limit)
-            {
+            } else if schedule.ends.time_limit.is_some_and(|limit| start.elapsed() + longest > limit) {
                 Some(Stopped::Time)
             } else {
                 None
@@ -175,12 +152,7 @@ impl<const C: usize> Session<'_, C> {
         let Some(limit) = schedule.ends.time_limit else {
             return Ok(*schedule);
         };
-        self.pass(
-            &mut Run::new(cells.len()),
-            cells,
-            &schedule.divided(PILOT),
-            source,
-        )?;
+        self.pass(&mut Run::new(cells.len()), cells, &schedule.divided(PILOT), source)?;
         let pass = start.elapsed().as_secs_f64() * PILOT as f64;
         let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64()).max(1e-3);
         let by = (pass * PASSES_IN_TIME / left).ceil().clamp(1.0, 1e6);
@@ -212,10 +184,7 @@ impl<const C: usize> Session<'_, C> {
             .map_init(Scratch::default, |scratch, task| {
                 let (number, block) = ((task / blocks) as usize, task % blocks);
                 let shift = look.shift(number);
-                let mut sum = Sample {
-                    light: Light::default(),
-                    dark: true,
-                };
+                let mut sum = Sample { light: Light::default(), dark: true };
                 for sample in block * BLOCK..((block + 1) * BLOCK).min(samples) {
                     let one = look.sample(&cells[number], number, sample, &shift, scratch);
                     sum.light.add(&one.light);
@@ -227,11 +196,7 @@ impl<const C: usize> Session<'_, C> {
         for (cell, parts) in run.cells.iter_mut().zip(found.chunks(blocks as usize)) {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
-            cell.push(
-                &light.over(samples as f64),
-                light.photons,
-                parts.iter().all(|part| part.dark),
-            );
+            cell.push(&light.over(samples as f64), light.photons, parts.iter().all(|part| part.dark));
         }
         run.passes += 1;
         run.samples += samples;
@@ -252,30 +217,12 @@ impl<const C: usize> Session<'_, C> {
             Source::Map(file) => file.passes[number as usize].clone(),
             Source::Trace => {
                 let count = schedule.photons(number);
-                trace_pass(
-                    self.world,
-                    self.lamps,
-                    &self.settings,
-                    self.settings.classes(),
-                    number as u32,
-                    count,
-                )?
+                trace_pass(self.world, self.lamps, &self.settings, self.settings.classes(), number as u32, count)?
             }
         };
         run.book(&photons);
-        let maps = PassMaps::build(
-            photons,
-            self.world,
-            self.needs,
-            &self.settings,
-            number as u32,
-            &mut run.radii,
-        )?;
-        run.radius += if maps.surface.is_some() {
-            maps.surface_radius
-        } else {
-            maps.caustic_radius
-        };
+        let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
+        run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
     }
 }
@@ -313,10 +260,7 @@ impl<const C: usize> Run<C> {
 
     fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
         let per_pass = 1.0 / self.passes as f64;
-        let has_radius = !matches!(
-            session.settings.method,
-            Method::Nearest { .. } | Method::Path
-        );
+        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
         Outcome {
             ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),

@@ -32,63 +32,34 @@ pub fn sample_direct<const C: usize>(
     let index = lamps.choose(xi[0]);
     let chosen = lamps.probability[index];
     let visible = |direction: DVec3, distance: f64, to: Option<u32>| {
-        world.sees(
-            &Ray::new(point.position, direction),
-            Some(point.primitive),
-            distance,
-            to,
-        )
+        world.sees(&Ray::new(point.position, direction), Some(point.primitive), distance, to)
     };
     match &lamps.lamps[index].kind {
-        LampKind::Point {
-            position,
-            intensity,
-        } => {
+        LampKind::Point { position, intensity } => {
             let offset = *position - point.position;
             let distance = offset.length();
             let direction = offset / distance;
             let cosine = direction.dot(normal);
             let lit = cosine > 0.0 && visible(direction, distance, None);
             let irradiance = *intensity * (cosine / (distance * distance) / chosen);
-            lit.then_some(DirectSample {
-                direction,
-                irradiance,
-                pdf_solid_angle: 0.0,
-            })
+            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: 0.0 })
         }
-        LampKind::Directional {
-            direction,
-            irradiance,
-            ..
-        } => {
+        LampKind::Directional { direction, irradiance, .. } => {
             let cosine = -direction.dot(normal);
             let lit = cosine > 0.0 && visible(-*direction, f64::INFINITY, None);
             let irradiance = *irradiance * (cosine / chosen);
-            lit.then_some(DirectSample {
-                direction: -*direction,
-                irradiance,
-                pdf_solid_angle: 0.0,
-            })
+            lit.then_some(DirectSample { direction: -*direction, irradiance, pdf_solid_angle: 0.0 })
         }
-        LampKind::Area {
-            primitive,
-            radiance,
-            ..
-        } => {
+        LampKind::Area { primitive, radiance, .. } => {
             let position = point_towards(world, *primitive, point.position, [xi[1], xi[2]])?;
             let offset = position - point.position;
             let distance = offset.length();
             let direction = offset / distance;
             let cosine = direction.dot(normal);
-            let pdf =
-                chosen * primitive_pdf_solid_angle(world, *primitive, point.position, position);
+            let pdf = chosen * primitive_pdf_solid_angle(world, *primitive, point.position, position);
             let lit = cosine > 0.0 && pdf > 0.0 && visible(direction, distance, Some(*primitive));
             let irradiance = *radiance * (cosine / pdf);
-            lit.then_some(DirectSample {
-                direction,
-                irradiance,
-                pdf_solid_angle: pdf,
-            })
+            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: pdf })
         }
     }
 }
@@ -103,8 +74,7 @@ pub fn lamp_pdf_solid_angle<const C: usize>(
     position: DVec3,
 ) -> f64 {
     lamps.of_primitive(primitive).map_or(0.0, |lamp| {
-        lamps.probability[lamp as usize]
-            * primitive_pdf_solid_angle(world, primitive, from, position)
+        lamps.probability[lamp as usize] * primitive_pdf_solid_angle(world, primitive, from, position)
     })
 }
 

@@ -64,33 +64,18 @@ impl<const C: usize> Lamp<C> {
     /// A ray drawn in proportion to the emitted flux: every ray carries the same share of [`Lamp::flux`].
     pub fn emit(&self, world: &World, stream: &mut Stream) -> Emission {
         match &self.kind {
-            LampKind::Point { position, .. } => Emission {
-                ray: Ray::new(*position, warp::square_to_uniform_sphere(stream.next2())),
-                from: None,
-            },
-            LampKind::Directional {
-                direction,
-                corner,
-                sides,
-                ..
-            } => {
+            LampKind::Point { position, .. } => {
+                Emission { ray: Ray::new(*position, warp::square_to_uniform_sphere(stream.next2())), from: None }
+            }
+            LampKind::Directional { direction, corner, sides, .. } => {
                 let [s, t] = stream.next2();
-                Emission {
-                    ray: Ray::new(*corner + s * sides[0] + t * sides[1], *direction),
-                    from: None,
-                }
+                Emission { ray: Ray::new(*corner + s * sides[0] + t * sides[1], *direction), from: None }
             }
             LampKind::Area { primitive, .. } => {
-                let position = point_on_surface(
-                    &world.primitives[*primitive as usize].surface,
-                    stream.next2(),
-                );
+                let position = point_on_surface(&world.primitives[*primitive as usize].surface, stream.next2());
                 let point = world.point_on(*primitive, position);
                 let direction = warp::square_to_cosine_hemisphere(stream.next2(), point.normal);
-                Emission {
-                    ray: Ray::new(position, direction),
-                    from: Some(*primitive),
-                }
+                Emission { ray: Ray::new(position, direction), from: Some(*primitive) }
             }
         }
     }
@@ -123,28 +108,15 @@ pub struct Lamps<const C: usize> {
 impl<const C: usize> Lamps<C> {
     /// Collects the lamps of a scene.
     pub fn new(world: &World) -> Self {
-        let mut lamps: Vec<Lamp<C>> = world
-            .scene
-            .emitters
-            .iter()
-            .map(|e| surfaceless(world, e))
-            .collect();
+        let mut lamps: Vec<Lamp<C>> = world.scene.emitters.iter().map(|e| surfaceless(world, e)).collect();
         for (index, shape) in world.scene.shapes.iter().enumerate() {
             let Some(radiance) = shape.radiance.map(Colour::<C>::from_rgb) else {
                 continue;
             };
             for primitive in world.primitives_of(index) {
                 let area = world.primitives[primitive as usize].surface.area();
-                let kind = LampKind::Area {
-                    primitive,
-                    radiance,
-                    area,
-                };
-                lamps.push(Lamp {
-                    id: shape.id.clone(),
-                    kind,
-                    flux: radiance * (PI * area),
-                });
+                let kind = LampKind::Area { primitive, radiance, area };
+                lamps.push(Lamp { id: shape.id.clone(), kind, flux: radiance * (PI * area) });
             }
         }
         lamps.retain(|lamp| !lamp.flux.is_zero());
@@ -157,15 +129,8 @@ impl<const C: usize> Lamps<C> {
         let total: f64 = lamps.iter().map(|lamp| lamp.flux.max()).sum();
         // Half by flux and half evenly: a weak lamp close to a receiver is not starved.
         let even = 1.0 / lamps.len() as f64;
-        let probability = lamps
-            .iter()
-            .map(|lamp| 0.5 * lamp.flux.max() / total + 0.5 * even)
-            .collect();
-        Self {
-            lamps,
-            probability,
-            of_primitive,
-        }
+        let probability = lamps.iter().map(|lamp| 0.5 * lamp.flux.max() / total + 0.5 * even).collect();
+        Self { lamps, probability, of_primitive }
     }
 
     /// The lamp of a primitive, if that emits.
@@ -198,49 +163,23 @@ impl<const C: usize> Lamps<C> {
 
     /// Sum of all lamps' flux.
     pub fn total_flux(&self) -> Colour<C> {
-        self.lamps
-            .iter()
-            .fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)
+        self.lamps.iter().fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)
     }
 }
 
 fn surfaceless<const C: usize>(world: &World, emitter: &photonlab_scene::Emitter) -> Lamp<C> {
     match emitter {
-        photonlab_scene::Emitter::Point {
-            id,
-            position,
-            intensity,
-        } => {
+        photonlab_scene::Emitter::Point { id, position, intensity } => {
             let intensity = Colour::from_rgb(*intensity);
-            let kind = LampKind::Point {
-                position: *position,
-                intensity,
-            };
-            Lamp {
-                id: id.clone(),
-                kind,
-                flux: intensity * (4.0 * PI),
-            }
+            let kind = LampKind::Point { position: *position, intensity };
+            Lamp { id: id.clone(), kind, flux: intensity * (4.0 * PI) }
         }
-        photonlab_scene::Emitter::Directional {
-            id,
-            direction,
-            irradiance,
-        } => {
+        photonlab_scene::Emitter::Directional { id, direction, irradiance } => {
             let irradiance = Colour::from_rgb(*irradiance);
             let (corner, sides) = covering_window(world.bounds(), *direction);
             let area = sides[0].cross(sides[1]).length();
-            let kind = LampKind::Directional {
-                direction: *direction,
-                irradiance,
-                corner,
-                sides,
-            };
-            Lamp {
-                id: id.clone(),
-                kind,
-                flux: irradiance * area,
-            }
+            let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };
+            Lamp { id: id.clone(), kind, flux: irradiance * area }
         }
     }
 }
@@ -251,41 +190,28 @@ fn covering_window(bounds: (DVec3, DVec3), direction: DVec3) -> (DVec3, [DVec3; 
     let corners: Vec<DVec3> = (0..8)
         .map(|i| {
             let pick = |axis: usize| {
-                if i >> axis & 1 == 0 {
-                    bounds.0[axis]
-                } else {
-                    bounds.1[axis]
-                }
+                if i >> axis & 1 == 0 { bounds.0[axis] } else { bounds.1[axis] }
             };
             DVec3::new(pick(0), pick(1), pick(2))
         })
         .collect();
     let range = |axis: DVec3| {
         let along = corners.iter().map(|c| c.dot(axis));
-        (
-            along.clone().fold(f64::INFINITY, f64::min),
-            along.fold(f64::NEG_INFINITY, f64::max),
-        )
+        (along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max))
     };
     let (tangent, bitangent) = direction.any_orthonormal_pair();
     let window = (0..90).map(|degree| {
         let (sin, cos) = f64::from(degree).to_radians().sin_cos();
-        let axes = [
-            cos * tangent + sin * bitangent,
-            cos * bitangent - sin * tangent,
-        ];
+        let axes = [cos * tangent + sin * bitangent, cos * bitangent - sin * tangent];
         (axes, [range(axes[0]), range(axes[1])])
     });
     let area = |r: &[(f64, f64); 2]| (r[0].1 - r[0].0) * (r[1].1 - r[1].0);
-    let (axes, ranges) = window
-        .min_by(|a, b| area(&a.1).total_cmp(&area(&b.1)))
-        .expect("ninety turns were tried");
+    let (axes, ranges) = window.min_by(|a, b| area(&a.1).total_cmp(&area(&b.1))).expect("ninety turns were tried");
     // A hair wider than the box, so that a surface on its rim is lit to the edge.
     let size = (bounds.1 - bounds.0).length();
     let margin = 1e-9 * size;
     let before = range(direction).0 - 0.1 * size.max(f64::MIN_POSITIVE);
-    let corner =
-        (ranges[0].0 - margin) * axes[0] + (ranges[1].0 - margin) * axes[1] + before * direction;
+    let corner = (ranges[0].0 - margin) * axes[0] + (ranges[1].0 - margin) * axes[1] + before * direction;
     let side = |r: (f64, f64), axis: DVec3| (r.1 - r.0 + 2.0 * margin) * axis;
     (corner, [side(ranges[0], axes[0]), side(ranges[1], axes[1])])
 }

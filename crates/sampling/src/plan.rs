@@ -25,9 +25,7 @@ pub enum PlanError {
     #[error("the scene has no lamp that emits")]
     NoLamp,
     /// Some lamp would emit nothing.
-    #[error(
-        "{photons} photons cannot be shared among {lamps} lamps; ask for at least one photon per lamp and pass"
-    )]
+    #[error("{photons} photons cannot be shared among {lamps} lamps; ask for at least one photon per lamp and pass")]
     TooFewPhotons {
         /// Photons asked for.
         photons: u64,
@@ -44,19 +42,12 @@ impl<const C: usize> EmissionPlan<C> {
             return Err(PlanError::NoLamp);
         }
         if photons < count as u64 {
-            return Err(PlanError::TooFewPhotons {
-                photons,
-                lamps: count,
-            });
+            return Err(PlanError::TooFewPhotons { photons, lamps: count });
         }
         let total: f64 = lamps.lamps.iter().map(|lamp| lamp.flux.max()).sum();
         let even = 1.0 / count as f64;
         let weight = |flux: f64| (flux / total).max(FLOOR * even);
-        let weights: Vec<f64> = lamps
-            .lamps
-            .iter()
-            .map(|lamp| weight(lamp.flux.max()))
-            .collect();
+        let weights: Vec<f64> = lamps.lamps.iter().map(|lamp| weight(lamp.flux.max())).collect();
         let sum: f64 = weights.iter().sum();
         // Each lamp gets one photon, the rest are rounded cumulatively so that they add up.
         let spare = photons - count as u64;
@@ -64,19 +55,11 @@ impl<const C: usize> EmissionPlan<C> {
         let mut running = 0.0;
         for (index, w) in weights.iter().enumerate() {
             running += w;
-            let end = if index + 1 == count {
-                spare
-            } else {
-                ((running / sum) * spare as f64).round() as u64
-            };
+            let end = if index + 1 == count { spare } else { ((running / sum) * spare as f64).round() as u64 };
             first.push(end + index as u64 + 1);
         }
-        let flux = lamps
-            .lamps
-            .iter()
-            .zip(first.windows(2))
-            .map(|(l, w)| l.flux * (1.0 / (w[1] - w[0]) as f64))
-            .collect();
+        let flux =
+            lamps.lamps.iter().zip(first.windows(2)).map(|(l, w)| l.flux * (1.0 / (w[1] - w[0]) as f64)).collect();
         Ok(Self { first, flux })
     }
 

@@ -39,16 +39,11 @@ pub enum Specular<const C: usize> {
 pub fn interaction<const C: usize>(world: &World, hit: &Hit) -> Interaction<C> {
     match world.coating(hit.point.primitive, hit.front) {
         None | Some(Bsdf::TwoSided { .. }) => Interaction::Absorbed,
-        Some(Bsdf::Diffuse { reflectance }) => Interaction::Diffuse {
-            reflectance: Colour::from_rgb(*reflectance),
-        },
-        Some(Bsdf::Mirror { reflectance }) => Interaction::Specular(Specular::Mirror {
-            reflectance: Colour::from_rgb(*reflectance),
-        }),
-        Some(Bsdf::Dielectric {
-            interior_index,
-            exterior_index,
-        }) => {
+        Some(Bsdf::Diffuse { reflectance }) => Interaction::Diffuse { reflectance: Colour::from_rgb(*reflectance) },
+        Some(Bsdf::Mirror { reflectance }) => {
+            Interaction::Specular(Specular::Mirror { reflectance: Colour::from_rgb(*reflectance) })
+        }
+        Some(Bsdf::Dielectric { interior_index, exterior_index }) => {
             let ratio = interior_index / exterior_index;
             let relative_index = if hit.front { ratio } else { 1.0 / ratio };
             Interaction::Specular(Specular::Dielectric { relative_index })
@@ -62,10 +57,7 @@ impl<const C: usize> Specular<C> {
     pub fn follow(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> (Ray, Colour<C>, f64) {
         let normal = hit.facing_normal();
         let cosine = -ray.direction.dot(normal);
-        let mirrored = Ray::new(
-            hit.point.position,
-            (ray.direction + 2.0 * cosine * normal).normalize(),
-        );
+        let mirrored = Ray::new(hit.point.position, (ray.direction + 2.0 * cosine * normal).normalize());
         match *self {
             Specular::Mirror { reflectance } => (mirrored, reflectance, 1.0),
             Specular::Dielectric { relative_index } => {
@@ -73,14 +65,9 @@ impl<const C: usize> Specular<C> {
                 if stream.next() < reflected {
                     return (mirrored, Colour::ONE, 1.0);
                 }
-                let direction =
-                    refracted(ray.direction, normal, cosine, cosine_beyond, relative_index);
+                let direction = refracted(ray.direction, normal, cosine, cosine_beyond, relative_index);
                 let compression = 1.0 / (relative_index * relative_index);
-                (
-                    Ray::new(hit.point.position, direction),
-                    Colour::ONE,
-                    compression,
-                )
+                (Ray::new(hit.point.position, direction), Colour::ONE, compression)
             }
         }
     }
@@ -94,13 +81,7 @@ impl<const C: usize> Specular<C> {
     }
 }
 
-fn refracted(
-    direction: DVec3,
-    normal: DVec3,
-    cosine: f64,
-    cosine_beyond: f64,
-    relative_index: f64,
-) -> DVec3 {
+fn refracted(direction: DVec3, normal: DVec3, cosine: f64, cosine_beyond: f64, relative_index: f64) -> DVec3 {
     ((direction + cosine * normal) / relative_index - cosine_beyond * normal).normalize()
 }
 

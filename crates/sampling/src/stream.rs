@@ -25,10 +25,7 @@ pub fn philox4x32(mut counter: [u32; 4], mut key: [u32; 2]) -> [u32; 4] {
             (left >> 32) as u32 ^ counter[3] ^ key[1],
             left as u32,
         ];
-        key = [
-            key[0].wrapping_add(0x9E37_79B9),
-            key[1].wrapping_add(0xBB67_AE85),
-        ];
+        key = [key[0].wrapping_add(0x9E37_79B9), key[1].wrapping_add(0xBB67_AE85)];
     }
     counter
 }
@@ -56,12 +53,7 @@ impl Stream {
         debug_assert!(index < 1 << 60);
         Self {
             key: [seed as u32, (seed >> 32) as u32],
-            counter: [
-                0,
-                pass,
-                index as u32,
-                (index >> 32) as u32 | (purpose as u32) << 28,
-            ],
+            counter: [0, pass, index as u32, (index >> 32) as u32 | (purpose as u32) << 28],
             block: [0; 4],
             used: 4,
             prefix: [0.0; Self::PREFIX],
@@ -112,19 +104,10 @@ mod tests {
     /// The known answers published with Random123.
     #[test]
     fn philox_gives_the_published_answers() {
+        assert_eq!(philox4x32([0; 4], [0; 2]), [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]);
+        assert_eq!(philox4x32([u32::MAX; 4], [u32::MAX; 2]), [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]);
         assert_eq!(
-            philox4x32([0; 4], [0; 2]),
-            [0x6627_e8d5, 0xe169_c58d, 0xbc57_ac4c, 0x9b00_dbd8]
-        );
-        assert_eq!(
-            philox4x32([u32::MAX; 4], [u32::MAX; 2]),
-            [0x408f_276d, 0x41c8_3b0e, 0xa20b_c7c6, 0x6d54_51fd]
-        );
-        assert_eq!(
-            philox4x32(
-                [0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344],
-                [0xa409_3822, 0x299f_31d0]
-            ),
+            philox4x32([0x243f_6a88, 0x85a3_08d3, 0x1319_8a2e, 0x0370_7344], [0xa409_3822, 0x299f_31d0]),
             [0xd16c_fe09, 0x94fd_cceb, 0x5001_e420, 0x2412_6ea1]
         );
     }
@@ -133,13 +116,7 @@ mod tests {
     fn streams_differ_and_repeat() {
         let take = |seed, purpose, pass, index| {
             let mut stream = Stream::new(seed, purpose, pass, index);
-            [
-                stream.next(),
-                stream.next(),
-                stream.next(),
-                stream.next(),
-                stream.next(),
-            ]
+            [stream.next(), stream.next(), stream.next(), stream.next(), stream.next()]
         };
         let base = take(1, Purpose::Photons, 0, 0);
         assert_eq!(base, take(1, Purpose::Photons, 0, 0));

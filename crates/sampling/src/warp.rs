@@ -47,11 +47,7 @@ mod tests {
 
     /// Chi-square of the draws against a density that depends on the cosine to the axis alone, in 32 cells of equal
     /// probability by cosine times 8 by azimuth (255 degrees of freedom). False alarm below 1e-5 each.
-    fn chi_square(
-        cdf_of_cosine: impl Fn(f64) -> f64,
-        axis: DVec3,
-        draw: impl Fn([f64; 2]) -> DVec3,
-    ) -> f64 {
+    fn chi_square(cdf_of_cosine: impl Fn(f64) -> f64, axis: DVec3, draw: impl Fn([f64; 2]) -> DVec3) -> f64 {
         let mut stream = Stream::new(11, Purpose::Synthetic, 0, 0);
         let (tangent, bitangent) = axis.any_orthonormal_pair();
         let mut cells = [0u32; 256];
@@ -64,10 +60,7 @@ mod tests {
             cells[row * 8 + ((turn * 8.0) as usize).min(7)] += 1;
         }
         let expected = f64::from(n) / 256.0;
-        cells
-            .iter()
-            .map(|&c| (f64::from(c) - expected).powi(2) / expected)
-            .sum()
+        cells.iter().map(|&c| (f64::from(c) - expected).powi(2) / expected).sum()
     }
 
     /// Chi-square with 255 degrees of freedom exceeds 360 with probability 1.5e-5.
@@ -82,9 +75,7 @@ mod tests {
         let cone = |xi| square_to_uniform_cone(xi, axis, narrow);
         assert!(chi_square(|c| (1.0 - c) / narrow, axis, cone) < LIMIT);
         // A wrong density must be noticed: uniform by angle instead of by cosine.
-        let wrong = |xi: [f64; 2]| {
-            square_to_cosine_hemisphere([(xi[0] * PI / 2.0).sin().powi(2), xi[1]], axis)
-        };
+        let wrong = |xi: [f64; 2]| square_to_cosine_hemisphere([(xi[0] * PI / 2.0).sin().powi(2), xi[1]], axis);
         assert!(chi_square(|c| c, axis, wrong) > 2.0 * LIMIT);
     }
 }

@@ -42,11 +42,7 @@ impl Ball {
         let c = offset.length_squared() - self.radius * self.radius;
         let q = -b + if b <= 0.0 { half_chord } else { -half_chord };
         let (near, far) = if b <= 0.0 { (c / q, q) } else { (q, c / q) };
-        if near > t_min {
-            Some(near)
-        } else {
-            (far > t_min).then_some(far)
-        }
+        if near > t_min { Some(near) } else { (far > t_min).then_some(far) }
     }
 
     /// Unit normal of the front side at a point of the surface.
@@ -64,11 +60,7 @@ impl Ball {
     pub fn uv(&self, position: DVec3) -> DVec2 {
         let local = self.axes.transpose() * (position - self.centre).normalize();
         let azimuth = local.y.atan2(local.x);
-        let u = if azimuth < 0.0 {
-            azimuth / TAU + 1.0
-        } else {
-            azimuth / TAU
-        };
+        let u = if azimuth < 0.0 { azimuth / TAU + 1.0 } else { azimuth / TAU };
         DVec2::new(u, local.z.clamp(-1.0, 1.0).acos() / PI)
     }
 
@@ -76,8 +68,7 @@ impl Ball {
     pub fn point(&self, u: f64, cos_polar: f64) -> DVec3 {
         let sin_polar = (1.0 - cos_polar * cos_polar).max(0.0).sqrt();
         let (sin, cos) = (TAU * u).sin_cos();
-        self.centre
-            + self.radius * (self.axes * DVec3::new(sin_polar * cos, sin_polar * sin, cos_polar))
+        self.centre + self.radius * (self.axes * DVec3::new(sin_polar * cos, sin_polar * sin, cos_polar))
     }
 
     /// Area in square metres.
@@ -101,12 +92,7 @@ mod tests {
     use super::*;
 
     fn ball() -> Ball {
-        Ball {
-            centre: DVec3::new(1.0, -2.0, 0.5),
-            radius: 2.0,
-            axes: DMat3::IDENTITY,
-            inwards: false,
-        }
+        Ball { centre: DVec3::new(1.0, -2.0, 0.5), radius: 2.0, axes: DMat3::IDENTITY, inwards: false }
     }
 
     #[test]
@@ -127,9 +113,7 @@ mod tests {
         for grazing in [1.0, 1e-3, 1e-6] {
             let tangent = (start - ball.centre).any_orthonormal_vector();
             let direction = (tangent - grazing * ball.normal(start)).normalize();
-            let t = ball
-                .intersect(&Ray::new(start, direction), 0.0, true)
-                .unwrap();
+            let t = ball.intersect(&Ray::new(start, direction), 0.0, true).unwrap();
             let end = start + t * direction;
             assert!(((end - ball.centre).length() - ball.radius).abs() < 1e-12);
             assert!(t > 0.0);

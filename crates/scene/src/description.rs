@@ -187,15 +187,9 @@ impl Scene {
             Emitter::Point { intensity, .. } => grey(intensity),
             Emitter::Directional { irradiance, .. } => grey(irradiance),
         });
-        let shapes_grey = self
-            .shapes
-            .iter()
-            .all(|shape| shape.bsdf.is_grey() && shape.radiance.as_ref().is_none_or(grey));
-        if emitters_grey && shapes_grey {
-            Channels::Grey
-        } else {
-            Channels::Rgb
-        }
+        let shapes_grey =
+            self.shapes.iter().all(|shape| shape.bsdf.is_grey() && shape.radiance.as_ref().is_none_or(grey));
+        if emitters_grey && shapes_grey { Channels::Grey } else { Channels::Rgb }
     }
 
     /// True if the scene holds anything that emits.

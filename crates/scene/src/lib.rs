@@ -19,6 +19,5 @@ pub use ray::Ray;
 pub use world::{Hit, Primitive, Surface, SurfacePoint, World};
 
 pub use description::{
-    Bsdf, Camera, Emitter, Film, Geometry, Meter, Receiver, Rgb, Scene, Sensor, Shape,
-    SpecularReflectance,
+    Bsdf, Camera, Emitter, Film, Geometry, Meter, Receiver, Rgb, Scene, Sensor, Shape, SpecularReflectance,
 };

@@ -45,54 +45,41 @@ impl Needs {
             left_out: Vec::new(),
         };
         match channels {
-            Channels::Grey => needs.leave_out(
-                "three channels",
-                "every colour of the scene is grey, so one channel carries all",
-            ),
+            Channels::Grey => {
+                needs.leave_out("three channels", "every colour of the scene is grey, so one channel carries all")
+            }
             Channels::Rgb => needs.model("three channels", "a reflectance or a lamp is coloured"),
         }
         if needs.direct {
             needs.model("direct light", "the scene has a lamp");
         }
         match specular.filter(|_| needs.caustic) {
-            Some(id) => needs.model(
-                "caustic map",
-                &format!("`{id}` is specular, so lamps can shine through or off it"),
-            ),
+            Some(id) => {
+                needs.model("caustic map", &format!("`{id}` is specular, so lamps can shine through or off it"))
+            }
             None => needs.leave_out("caustic map", "no surface is specular"),
         }
         match indirect.filter(|_| needs.indirect) {
             Some(reason) => needs.model("surface map", &reason),
-            None => needs.leave_out(
-                "surface map",
-                "no light that a surface reflects diffusely can reach another surface",
-            ),
+            None => {
+                needs.leave_out("surface map", "no light that a surface reflects diffusely can reach another surface")
+            }
         }
         needs.leave_out("volume map", "the scene has no medium");
         needs
     }
 
     fn model(&mut self, need: &str, reason: &str) {
-        self.list.push(Need {
-            need: need.into(),
-            reason: reason.into(),
-        });
+        self.list.push(Need { need: need.into(), reason: reason.into() });
     }
 
     fn leave_out(&mut self, need: &str, reason: &str) {
-        self.left_out.push(Need {
-            need: need.into(),
-            reason: reason.into(),
-        });
+        self.left_out.push(Need { need: need.into(), reason: reason.into() });
     }
 }
 
 fn first_specular(scene: &Scene) -> Option<&str> {
-    scene
-        .shapes
-        .iter()
-        .find(|shape| is_specular(&shape.bsdf))
-        .map(|shape| shape.id.as_str())
+    scene.shapes.iter().find(|shape| is_specular(&shape.bsdf)).map(|shape| shape.id.as_str())
 }
 
 fn is_specular(bsdf: &Bsdf) -> bool {
@@ -114,19 +101,10 @@ fn reflects_diffusely(bsdf: &Bsdf) -> bool {
 
 /// Why diffusely reflected light can reach a surface that reads it, if it can.
 fn indirect_reason(scene: &Scene) -> Option<String> {
-    let reflecting: Vec<_> = scene
-        .shapes
-        .iter()
-        .filter(|shape| reflects_diffusely(&shape.bsdf))
-        .collect();
+    let reflecting: Vec<_> = scene.shapes.iter().filter(|shape| reflects_diffusely(&shape.bsdf)).collect();
     let first = reflecting.first()?;
     // One flat or convex face alone cannot light itself: its reflected light needs another surface to return from or
     // to be read on.
     let alone = scene.shapes.len() == 1 && matches!(first.geometry, Geometry::Rectangle { .. });
-    (!alone).then(|| {
-        format!(
-            "`{}` reflects diffusely and its light can reach a surface",
-            first.id
-        )
-    })
+    (!alone).then(|| format!("`{}` reflects diffusely and its light can reach a surface", first.id))
 }

@@ -61,8 +61,7 @@ impl Parallelogram {
         }
         let offset = ray.at(t) - self.centre;
         let (a, b) = (offset.dot(self.dual_u), offset.dot(self.dual_v));
-        (a.abs() <= 1.0 + RIM && b.abs() <= 1.0 + RIM)
-            .then(|| (t, 0.5 * DVec2::new(a + 1.0, b + 1.0)))
+        (a.abs() <= 1.0 + RIM && b.abs() <= 1.0 + RIM).then(|| (t, 0.5 * DVec2::new(a + 1.0, b + 1.0)))
     }
 
     /// Distance in metres from a point on the surface to its nearest edge.
@@ -102,12 +101,7 @@ mod tests {
     use super::*;
 
     fn skewed() -> Parallelogram {
-        Parallelogram::new(
-            DVec3::new(1.0, 2.0, 3.0),
-            DVec3::new(2.0, 0.0, 0.5),
-            DVec3::new(0.5, 1.0, 0.0),
-            DVec3::Z,
-        )
+        Parallelogram::new(DVec3::new(1.0, 2.0, 3.0), DVec3::new(2.0, 0.0, 0.5), DVec3::new(0.5, 1.0, 0.0), DVec3::Z)
     }
 
     #[test]
@@ -116,29 +110,18 @@ mod tests {
         for (u, v) in [(0.1, 0.9), (0.5, 0.5), (0.999, 0.001)] {
             let target = surface.point(DVec2::new(u, v));
             let origin = DVec3::new(4.0, -3.0, 9.0);
-            let (t, uv) = surface
-                .intersect(&Ray::towards(origin, target), 0.0)
-                .expect("it was aimed there");
+            let (t, uv) = surface.intersect(&Ray::towards(origin, target), 0.0).expect("it was aimed there");
             assert!((t - (target - origin).length()).abs() < 1e-12);
             assert!((uv - DVec2::new(u, v)).length() < 1e-12);
         }
         let outside = surface.point(DVec2::new(1.001, 0.5));
-        assert!(
-            surface
-                .intersect(&Ray::towards(DVec3::ZERO, outside), 0.0)
-                .is_none()
-        );
+        assert!(surface.intersect(&Ray::towards(DVec3::ZERO, outside), 0.0).is_none());
     }
 
     #[test]
     fn distances_agree_with_a_dense_search() {
         let surface = skewed();
-        for probe in [
-            DVec3::ZERO,
-            DVec3::new(1.2, 2.1, 4.0),
-            DVec3::new(9.0, 2.0, 3.0),
-            DVec3::new(3.3, 3.2, 3.2),
-        ] {
+        for probe in [DVec3::ZERO, DVec3::new(1.2, 2.1, 4.0), DVec3::new(9.0, 2.0, 3.0), DVec3::new(3.3, 3.2, 3.2)] {
             let n = 400;
             let nearest = (0..=n)
                 .flat_map(|i| (0..=n).map(move |j| DVec2::new(i as f64, j as f64) / n as f64))

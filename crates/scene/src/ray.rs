@@ -19,10 +19,7 @@ impl Ray {
 
     /// From a start through a point that differs from it.
     pub fn towards(origin: DVec3, target: DVec3) -> Self {
-        Self {
-            origin,
-            direction: (target - origin).normalize(),
-        }
+        Self { origin, direction: (target - origin).normalize() }
     }
 
     /// The point at a distance in metres.

@@ -70,11 +70,7 @@ pub struct Hit {
 impl Hit {
     /// The normal on the side from which the ray came.
     pub fn facing_normal(&self) -> DVec3 {
-        if self.front {
-            self.point.normal
-        } else {
-            -self.point.normal
-        }
+        if self.front { self.point.normal } else { -self.point.normal }
     }
 }
 
@@ -101,10 +97,7 @@ struct Tree {
 
 impl Tree {
     fn new(boxes: &[Aabb]) -> Self {
-        let parameters = BvhBuildParams {
-            max_prims_per_leaf: 1,
-            ..BvhBuildParams::medium_build()
-        };
+        let parameters = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
         let boxes = build_bvh2(boxes, parameters, &mut Default::default());
         let wide = bvh2_to_cwbvh(&boxes, 3, true, false);
         Self { boxes, wide }
@@ -117,16 +110,10 @@ impl World {
         let mut primitives = Vec::new();
         let mut first_primitive = vec![0];
         for (index, shape) in scene.shapes.iter().enumerate() {
-            primitives.extend(surfaces(shape).into_iter().map(|surface| Primitive {
-                surface,
-                shape: index as u32,
-            }));
+            primitives.extend(surfaces(shape).into_iter().map(|surface| Primitive { surface, shape: index as u32 }));
             first_primitive.push(primitives.len() as u32);
         }
-        let bounds = primitives
-            .iter()
-            .map(|p| p.surface.bounds())
-            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let bounds = primitives.iter().map(|p| p.surface.bounds()).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)));
         let bounds = bounds.unwrap_or((DVec3::ZERO, DVec3::ZERO));
         let centre = 0.5 * (bounds.0 + bounds.1);
         let half_extent = (0.5 * (bounds.1 - bounds.0).max_element()).max(f64::MIN_POSITIVE);
@@ -139,15 +126,7 @@ impl World {
             })
             .collect();
         let tree = (primitives.len() > LOOP_LIMIT).then(|| Tree::new(&local_boxes));
-        Self {
-            scene,
-            primitives,
-            first_primitive,
-            centre,
-            half_extent,
-            bounds,
-            tree,
-        }
+        Self { scene, primitives, first_primitive, centre, half_extent, bounds, tree }
     }
 
     /// Smallest and largest coordinates of all surfaces, metres; zeros for a scene without surfaces.
@@ -233,11 +212,7 @@ impl World {
             return true;
         }
         let reaches = |index: u32| {
-            index != point.primitive
-                && self.primitives[index as usize]
-                    .surface
-                    .distance(point.position)
-                    <= radius
+            index != point.primitive && self.primitives[index as usize].surface.distance(point.position) <= radius
         };
         let Some(tree) = &self.tree else {
             return (0..self.primitives.len() as u32).any(reaches);
@@ -257,24 +232,16 @@ impl World {
 
     /// A point drawn uniformly by area from the cell [column, row] of a shape's (u, v) square divided into
     /// columns x rows, from three numbers in [0, 1).
-    pub fn point_in_cell(
-        &self,
-        shape: usize,
-        cell: [u32; 2],
-        cells: [u32; 2],
-        xi: [f64; 3],
-    ) -> SurfacePoint {
+    pub fn point_in_cell(&self, shape: usize, cell: [u32; 2], cells: [u32; 2], xi: [f64; 3]) -> SurfacePoint {
         let range = self.primitives_of(shape);
         let primitive = self.choose_by_area(range, xi[2]);
         let u = (f64::from(cell[0]) + xi[0]) / f64::from(cells[0]);
         let position = match &self.primitives[primitive as usize].surface {
-            Surface::Parallelogram(face) => face.point(DVec2::new(
-                u,
-                (f64::from(cell[1]) + xi[1]) / f64::from(cells[1]),
-            )),
+            Surface::Parallelogram(face) => {
+                face.point(DVec2::new(u, (f64::from(cell[1]) + xi[1]) / f64::from(cells[1])))
+            }
             Surface::Ball(ball) => {
-                let polar =
-                    |row: u32| (std::f64::consts::PI * f64::from(row) / f64::from(cells[1])).cos();
+                let polar = |row: u32| (std::f64::consts::PI * f64::from(row) / f64::from(cells[1])).cos();
                 let (top, bottom) = (polar(cell[1]), polar(cell[1] + 1));
                 ball.point(u, top + xi[1] * (bottom - top))
             }
@@ -284,9 +251,7 @@ impl World {
 
     /// Area of a shape in square metres.
     pub fn shape_area(&self, shape: usize) -> f64 {
-        self.primitives_of(shape)
-            .map(|p| self.primitives[p as usize].surface.area())
-            .sum()
+        self.primitives_of(shape).map(|p| self.primitives[p as usize].surface.area()).sum()
     }
 
     /// The surface point of a primitive at a position on it.
@@ -295,11 +260,7 @@ impl World {
             Surface::Parallelogram(face) => face.normal,
             Surface::Ball(ball) => ball.normal(position),
         };
-        SurfacePoint {
-            position,
-            normal,
-            primitive,
-        }
+        SurfacePoint { position, normal, primitive }
     }
 
     fn choose_by_area(&self, range: std::ops::Range<u32>, xi: f64) -> u32 {
@@ -330,17 +291,11 @@ impl World {
         let entry = (-offset.dot(ray.direction) - 1.75).max(-0.01);
         let local = |t: f64| (((t / self.half_extent) - entry) as f32).next_up();
         let start = offset + entry * ray.direction;
-        let box_ray = BoxRay::new(
-            start.as_vec3().into(),
-            ray.direction.as_vec3().into(),
-            0.0,
-            local(reach),
-        );
-        tree.wide
-            .ray_traverse(box_ray, &mut RayHit::none(), |_, i| {
-                reach = test(t_min, tree.wide.primitive_indices[i], reach);
-                local(reach)
-            });
+        let box_ray = BoxRay::new(start.as_vec3().into(), ray.direction.as_vec3().into(), 0.0, local(reach));
+        tree.wide.ray_traverse(box_ray, &mut RayHit::none(), |_, i| {
+            reach = test(t_min, tree.wide.primitive_indices[i], reach);
+            local(reach)
+        });
     }
 
     fn meet(&self, ray: &Ray, index: u32, from: Option<u32>, t_min: f64) -> Option<f64> {
@@ -361,11 +316,7 @@ impl World {
             Surface::Ball(ball) => ball.project(ray.at(distance)),
         };
         let point = self.point_on(primitive, position);
-        Hit {
-            point,
-            distance,
-            front: point.normal.dot(ray.direction) < 0.0,
-        }
+        Hit { point, distance, front: point.normal.dot(ray.direction) < 0.0 }
     }
 }
 
@@ -400,12 +351,7 @@ fn surfaces(shape: &Shape) -> Vec<Surface> {
             let m = to_world.matrix3;
             // A normal goes with the inverse transpose, so a mirrored rectangle keeps the side that local +z points to.
             let front = side * m.z_axis;
-            vec![Surface::Parallelogram(Parallelogram::new(
-                to_world.translation,
-                m.x_axis,
-                m.y_axis,
-                front,
-            ))]
+            vec![Surface::Parallelogram(Parallelogram::new(to_world.translation, m.x_axis, m.y_axis, front))]
         }
         Geometry::Cube { to_world } => {
             let m = to_world.matrix3;
@@ -414,26 +360,12 @@ fn surfaces(shape: &Shape) -> Vec<Surface> {
                 .map(|face| {
                     let outwards = axes[face / 2] * if face % 2 == 0 { 1.0 } else { -1.0 };
                     let (u, v) = (axes[(face / 2 + 1) % 3], axes[(face / 2 + 2) % 3]);
-                    Surface::Parallelogram(Parallelogram::new(
-                        to_world.translation + outwards,
-                        u,
-                        v,
-                        side * outwards,
-                    ))
+                    Surface::Parallelogram(Parallelogram::new(to_world.translation + outwards, u, v, side * outwards))
                 })
                 .collect()
         }
-        Geometry::Sphere {
-            centre,
-            radius,
-            to_world,
-        } => {
-            vec![Surface::Ball(Ball {
-                centre: *centre,
-                radius: *radius,
-                axes: *to_world,
-                inwards: shape.flip_normals,
-            })]
+        Geometry::Sphere { centre, radius, to_world } => {
+            vec![Surface::Ball(Ball { centre: *centre, radius: *radius, axes: *to_world, inwards: shape.flip_normals })]
         }
     }
 }

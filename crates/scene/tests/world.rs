@@ -30,25 +30,11 @@ impl Numbers {
 }
 
 fn shape(geometry: Geometry, flip_normals: bool) -> Shape {
-    Shape {
-        id: "s".into(),
-        geometry,
-        flip_normals,
-        bsdf: Bsdf::Diffuse {
-            reflectance: [0.5; 3],
-        },
-        radiance: None,
-    }
+    Shape { id: "s".into(), geometry, flip_normals, bsdf: Bsdf::Diffuse { reflectance: [0.5; 3] }, radiance: None }
 }
 
 fn world(shapes: Vec<Shape>) -> World {
-    World::new(Scene {
-        shapes,
-        emitters: vec![],
-        sensors: vec![],
-        max_depth: None,
-        notes: vec![],
-    })
+    World::new(Scene { shapes, emitters: vec![], sensors: vec![], max_depth: None, notes: vec![] })
 }
 
 fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> {
@@ -57,18 +43,11 @@ fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> 
             let centre = numbers.vector() * scale;
             let turn = DMat3::from_axis_angle(numbers.direction(), numbers.next() * 6.0);
             let size = scale * (0.02 + 0.3 * numbers.next());
-            let to_world = DAffine3::from_mat3_translation(
-                turn * DMat3::from_diagonal(DVec3::splat(size)),
-                centre,
-            );
+            let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(size)), centre);
             let geometry = match i % 3 {
                 0 => Geometry::Rectangle { to_world },
                 1 => Geometry::Cube { to_world },
-                _ => Geometry::Sphere {
-                    centre,
-                    radius: size,
-                    to_world: turn,
-                },
+                _ => Geometry::Sphere { centre, radius: size, to_world: turn },
             };
             shape(geometry, i % 2 == 0)
         })
@@ -86,10 +65,8 @@ fn the_tree_finds_what_brute_force_finds() {
                 let far = if numbers.next() < 0.2 { 50.0 } else { 1.5 };
                 let origin = numbers.vector() * far * scale;
                 let ray = Ray::towards(origin, numbers.vector() * scale);
-                let (fast, slow) = (
-                    world.cast(&ray, None, f64::INFINITY),
-                    world.cast_brute_force(&ray, None, f64::INFINITY),
-                );
+                let (fast, slow) =
+                    (world.cast(&ray, None, f64::INFINITY), world.cast_brute_force(&ray, None, f64::INFINITY));
                 assert_eq!(
                     fast.map(|h| (h.point.primitive, h.distance)),
                     slow.map(|h| (h.point.primitive, h.distance))
@@ -100,10 +77,7 @@ fn the_tree_finds_what_brute_force_finds() {
                     assert!(!world.sees(&ray, None, hit.distance * 1.001, None));
                 }
             }
-            assert!(
-                count < 10 || hits > 100,
-                "the rays must meet something for the test to mean anything"
-            );
+            assert!(count < 10 || hits > 100, "the rays must meet something for the test to mean anything");
         }
     }
 }
@@ -127,14 +101,10 @@ fn balls_that_leave_their_surface_agree_with_brute_force() {
         // A neighbour counts if a shape on its own, seen from a point that is not on it, is within the radius.
         let own = small.primitives[hit.point.primitive as usize].shape as usize;
         let expected = (0..4).filter(|&i| i != own).any(|i| {
-            small
-                .primitives_of(i)
-                .any(|p| match &small.primitives[p as usize].surface {
-                    photonlab_scene::Surface::Parallelogram(f) => {
-                        f.distance(hit.point.position) <= radius
-                    }
-                    photonlab_scene::Surface::Ball(b) => b.distance(hit.point.position) <= radius,
-                })
+            small.primitives_of(i).any(|p| match &small.primitives[p as usize].surface {
+                photonlab_scene::Surface::Parallelogram(f) => f.distance(hit.point.position) <= radius,
+                photonlab_scene::Surface::Ball(b) => b.distance(hit.point.position) <= radius,
+            })
         });
         let found = small.ball_leaves_surface(&hit.point, radius);
         if expected {
@@ -156,35 +126,23 @@ fn rays_from_walls_stay_in_the_room() {
         for offset in [0.0, 20.0] {
             let centre = DVec3::new(0.3, -0.7, 0.2) * offset * scale;
             let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
-            let to_world = DAffine3::from_mat3_translation(
-                turn * DMat3::from_diagonal(DVec3::splat(scale)),
-                centre,
-            );
-            for geometry in [
-                Geometry::Cube { to_world },
-                Geometry::Sphere {
-                    centre,
-                    radius: scale,
-                    to_world: DMat3::IDENTITY,
-                },
-            ] {
+            let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(scale)), centre);
+            for geometry in
+                [Geometry::Cube { to_world }, Geometry::Sphere { centre, radius: scale, to_world: DMat3::IDENTITY }]
+            {
                 let room = world(vec![shape(geometry, true)]);
                 for _ in 0..2000 {
                     let mut ray = Ray::new(centre, numbers.direction());
                     let mut from = None;
                     for bounce in 0..3 {
-                        let hit = room
-                            .cast(&ray, from, f64::INFINITY)
-                            .expect("the room is closed");
+                        let hit = room.cast(&ray, from, f64::INFINITY).expect("the room is closed");
                         assert!(hit.front, "seen from inside, a wall shows its front");
                         assert!(hit.distance > 0.0 && hit.distance < 4.0 * scale);
                         from = Some(hit.point.primitive);
                         // Many grazing rays in a row would end within rounding of an edge.
                         let grazing = if bounce == 0 { 1e-4 } else { 1.0 };
                         let side = hit.point.normal.cross(numbers.direction()).normalize();
-                        let direction = (side
-                            + grazing * numbers.next().max(0.01) * hit.point.normal)
-                            .normalize();
+                        let direction = (side + grazing * numbers.next().max(0.01) * hit.point.normal).normalize();
                         ray = Ray::new(hit.point.position, direction);
                     }
                 }
@@ -198,41 +156,20 @@ fn cells_are_drawn_uniformly_by_area() {
     let mut numbers = Numbers(4);
     let to_world = DAffine3::from_scale(DVec3::new(1.0, 2.0, 1.0));
     let room = world(vec![
-        shape(
-            Geometry::Sphere {
-                centre: DVec3::ZERO,
-                radius: 2.0,
-                to_world: DMat3::IDENTITY,
-            },
-            false,
-        ),
+        shape(Geometry::Sphere { centre: DVec3::ZERO, radius: 2.0, to_world: DMat3::IDENTITY }, false),
         shape(Geometry::Cube { to_world }, false),
     ]);
     let n = 200_000;
     // Cell [0, 0] of two rows is the upper half: by Archimedes the mean height over it is R / 2.
     let mean_height = (0..n)
-        .map(|_| {
-            room.point_in_cell(
-                0,
-                [0, 0],
-                [1, 2],
-                [numbers.next(), numbers.next(), numbers.next()],
-            )
-            .position
-            .z
-        })
+        .map(|_| room.point_in_cell(0, [0, 0], [1, 2], [numbers.next(), numbers.next(), numbers.next()]).position.z)
         .sum::<f64>()
         / f64::from(n);
     assert!((mean_height - 1.0).abs() < 5.0 * 2.0 / (12f64.sqrt() * f64::from(n).sqrt()));
     // Of the box 2 x 4 x 2 the two small faces have 8 of 40 square metres.
     let small = (0..n)
         .filter(|_| {
-            let p = room.point_in_cell(
-                1,
-                [0, 0],
-                [1, 1],
-                [numbers.next(), numbers.next(), numbers.next()],
-            );
+            let p = room.point_in_cell(1, [0, 0], [1, 1], [numbers.next(), numbers.next(), numbers.next()]);
             p.normal.y.abs() > 0.5
         })
         .count() as f64

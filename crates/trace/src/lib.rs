@@ -52,22 +52,14 @@ pub fn trace<const C: usize>(
     let chunks: Vec<Result<Traced<C>, TraceError>> = (0..plan.photons().div_ceil(CHUNK))
         .into_par_iter()
         .map(|chunk| {
-            let mut part = Traced {
-                positions: Vec::new(),
-                photons: Vec::new(),
-                ledger: Ledger::new(world),
-            };
+            let mut part = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
             for index in chunk * CHUNK..((chunk + 1) * CHUNK).min(plan.photons()) {
                 path::follow(world, lamps, plan, job, index, &mut part)?;
             }
             Ok(part)
         })
         .collect();
-    let mut whole = Traced {
-        positions: Vec::new(),
-        photons: Vec::new(),
-        ledger: Ledger::new(world),
-    };
+    let mut whole = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
     for part in chunks {
         let part = part?;
         whole.positions.extend(part.positions);

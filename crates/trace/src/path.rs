@@ -1,9 +1,7 @@
 //! One photon's path.
 
 use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
-use photonlab_sampling::{
-    EmissionPlan, Interaction, Lamps, Purpose, Specular, Stream, interaction, warp,
-};
+use photonlab_sampling::{EmissionPlan, Interaction, Lamps, Purpose, Specular, Stream, interaction, warp};
 use photonlab_scene::{Hit, Ray, World};
 
 use crate::{Job, SurfaceBook, Traced, ledger::Book};
@@ -21,17 +19,9 @@ pub struct Classes {
 
 impl Classes {
     /// Every class.
-    pub const ALL: Classes = Classes {
-        direct: true,
-        caustic: true,
-        indirect: true,
-    };
+    pub const ALL: Classes = Classes { direct: true, caustic: true, indirect: true };
     /// No class: transport is only booked.
-    pub const NONE: Classes = Classes {
-        direct: false,
-        caustic: false,
-        indirect: false,
-    };
+    pub const NONE: Classes = Classes { direct: false, caustic: false, indirect: false };
 
     /// True if a class is kept.
     pub fn has(&self, class: PathClass) -> bool {
@@ -44,9 +34,7 @@ impl Classes {
 
     /// True if every class of `other` is in this set.
     pub fn contains(&self, other: Classes) -> bool {
-        PathClass::ALL
-            .into_iter()
-            .all(|class| self.has(class) || !other.has(class))
+        PathClass::ALL.into_iter().all(|class| self.has(class) || !other.has(class))
     }
 }
 
@@ -61,10 +49,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self {
-            max_segments: None,
-            max_specular: 1000,
-        }
+        Self { max_segments: None, max_specular: 1000 }
     }
 }
 
@@ -137,11 +122,7 @@ pub(crate) fn follow<const C: usize>(
 impl<const C: usize> Walk<'_, C> {
     /// Follows one segment and what happens at its end.
     fn step(&mut self, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
-        if job
-            .limits
-            .max_segments
-            .is_some_and(|max| self.segments >= max)
-        {
+        if job.limits.max_segments.is_some_and(|max| self.segments >= max) {
             self.book(out).cut_off += self.flux;
             return Fate::Ended;
         }
@@ -178,19 +159,9 @@ impl<const C: usize> Walk<'_, C> {
         }
     }
 
-    fn reflect(
-        &mut self,
-        hit: &Hit,
-        reflectance: Colour<C>,
-        stream: &mut Stream,
-        out: &mut Traced<C>,
-    ) -> Fate {
+    fn reflect(&mut self, hit: &Hit, reflectance: Colour<C>, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
         let before = self.flux.max();
-        self.lossless_run = if reflectance == Colour::ONE {
-            self.lossless_run + 1
-        } else {
-            0
-        };
+        self.lossless_run = if reflectance == Colour::ONE { self.lossless_run + 1 } else { 0 };
         self.specular_run = 0;
         self.keep_share(hit, reflectance, out);
         // The survivor's strongest channel keeps the strength it had: photons stay of like flux, and no channel's mean
@@ -214,11 +185,7 @@ impl<const C: usize> Walk<'_, C> {
         out: &mut Traced<C>,
     ) -> Fate {
         let (ray, share, _) = specular.follow(&self.ray, hit, stream);
-        self.specular_run = if share == Colour::ONE {
-            self.specular_run + 1
-        } else {
-            0
-        };
+        self.specular_run = if share == Colour::ONE { self.specular_run + 1 } else { 0 };
         if self.specular_run > job.limits.max_specular {
             self.book(out).cut_off += self.flux;
             out.ledger.trapped_paths += 1;

@@ -30,13 +30,7 @@ pub(super) struct Findings {
 impl Context {
     pub(super) fn new(claim: Claim, budget: Budget, out: &Path) -> anyhow::Result<Self> {
         let definition = Definition::parse(claim.id(), claim.definition())?;
-        Ok(Self {
-            claim,
-            budget,
-            definition,
-            out: out.into(),
-            start: Instant::now(),
-        })
+        Ok(Self { claim, budget, definition, out: out.into(), start: Instant::now() })
     }
 
     /// The claim's own parameters at this budget.
@@ -47,26 +41,15 @@ impl Context {
     /// Where a picture of this claim is written, and its path relative to the record.
     pub(super) fn image(&self, name: &str) -> (PathBuf, String) {
         let relative = super::image_path(self.claim, name);
-        (
-            self.out.join("records").join(&relative),
-            relative.to_string_lossy().into_owned(),
-        )
+        (self.out.join("records").join(&relative), relative.to_string_lossy().into_owned())
     }
 
     /// The record of what was found.
-    pub(super) fn record(
-        &self,
-        found: Findings,
-        verdict: Verdict,
-        reason: impl Into<String>,
-    ) -> Record {
+    pub(super) fn record(&self, found: Findings, verdict: Verdict, reason: impl Into<String>) -> Record {
         let d = &self.definition;
         let date = today();
         let commit = commit();
-        let short = commit
-            .as_deref()
-            .map_or("no-commit", |c| &c[..c.len().min(10)])
-            .to_string();
+        let short = commit.as_deref().map_or("no-commit", |c| &c[..c.len().min(10)]).to_string();
         Record {
             claim: self.claim.id().into(),
             title: d.title.clone(),
@@ -80,11 +63,7 @@ impl Context {
             run: Run {
                 id: format!("{}-{}-{date}-{short}", self.claim.id(), self.budget.name()),
                 commit,
-                command: format!(
-                    "photonlab reproduce {} --budget {}",
-                    self.claim.id(),
-                    self.budget.name()
-                ),
+                command: format!("photonlab reproduce {} --budget {}", self.claim.id(), self.budget.name()),
                 processor: system::processor(),
                 threads: system::threads(),
                 date,
@@ -103,10 +82,7 @@ impl Context {
 
 /// The commit of the checkout that this program was built in, if the program still runs beside it.
 fn commit() -> Option<String> {
-    let output = Command::new("git")
-        .args(["-C", env!("CARGO_MANIFEST_DIR"), "rev-parse", "HEAD"])
-        .output()
-        .ok()?;
+    let output = Command::new("git").args(["-C", env!("CARGO_MANIFEST_DIR"), "rev-parse", "HEAD"]).output().ok()?;
     let text = String::from_utf8(output.stdout).ok()?;
     (output.status.success() && !text.trim().is_empty()).then(|| text.trim().to_owned())
 }

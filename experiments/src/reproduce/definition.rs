@@ -40,9 +40,6 @@ impl Definition {
             Budget::Paper => &self.paper,
             Budget::Archive => &self.archive,
         };
-        table
-            .clone()
-            .try_into()
-            .with_context(|| format!("parameters of the {} budget", budget.name()))
+        table.clone().try_into().with_context(|| format!("parameters of the {} budget", budget.name()))
     }
 }

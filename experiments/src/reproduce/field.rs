@@ -13,22 +13,13 @@ pub(super) struct Field {
 impl Field {
     /// A homogeneous Poisson field of `density` photons per square metre on the rectangle [low, high] of the plane z = 0,
     /// each with flux 1 / density, so that the irradiance is 1.
-    pub(super) fn uniform(
-        density: f64,
-        low: [f64; 2],
-        high: [f64; 2],
-        stream: &mut Stream,
-    ) -> Self {
+    pub(super) fn uniform(density: f64, low: [f64; 2], high: [f64; 2], stream: &mut Stream) -> Self {
         let size = [high[0] - low[0], high[1] - low[1]];
         let count = poisson(density * size[0] * size[1], stream);
         let mut field = Self::default();
         for _ in 0..count {
             let [u, v] = stream.next2();
-            field.push(
-                [low[0] + u * size[0], low[1] + v * size[1], 0.0],
-                [0.0, 0.0, 1.0],
-                1.0 / density,
-            );
+            field.push([low[0] + u * size[0], low[1] + v * size[1], 0.0], [0.0, 0.0, 1.0], 1.0 / density);
         }
         field
     }

@@ -1,8 +1,6 @@
 //! Scenes read by experiments as the command would read them.
 
-use photonlab_readout::{
-    Cell, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Wanted,
-};
+use photonlab_readout::{Cell, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Wanted};
 use photonlab_sampling::Lamps;
 use photonlab_scene::{Needs, World, read::read_scene_str};
 
@@ -21,16 +19,9 @@ impl Observer for Silent {
 impl Lab {
     /// Reads a scene from its text.
     pub(super) fn new(name: &str, xml: &str, defines: &[(&str, &str)]) -> anyhow::Result<Self> {
-        let defines: Vec<_> = defines
-            .iter()
-            .map(|(name, value)| (name.to_string(), value.to_string()))
-            .collect();
-        let scene =
-            read_scene_str(xml, name, &defines).map_err(|error| anyhow::anyhow!("{error}"))?;
-        Ok(Self {
-            needs: Needs::of(&scene),
-            world: World::new(scene),
-        })
+        let defines: Vec<_> = defines.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
+        let scene = read_scene_str(xml, name, &defines).map_err(|error| anyhow::anyhow!("{error}"))?;
+        Ok(Self { needs: Needs::of(&scene), world: World::new(scene) })
     }
 
     /// Reads cells.
@@ -42,17 +33,8 @@ impl Lab {
         confidence: f64,
     ) -> Result<Outcome<C>, ReadError> {
         let lamps = Lamps::new(&self.world);
-        let rms = cells
-            .first()
-            .is_some_and(|cell| matches!(cell.target, photonlab_readout::Target::Pixel { .. }));
-        let session = Session {
-            world: &self.world,
-            lamps: &lamps,
-            needs: &self.needs,
-            settings,
-            confidence,
-            rms,
-        };
+        let rms = cells.first().is_some_and(|cell| matches!(cell.target, photonlab_readout::Target::Pixel { .. }));
+        let session = Session { world: &self.world, lamps: &lamps, needs: &self.needs, settings, confidence, rms };
         let schedule = Schedule::new(wanted, cells.len(), &session.demands());
         session.run(cells, &schedule, &Source::Trace, &Silent)
     }

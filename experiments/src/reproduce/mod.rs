@@ -19,17 +19,12 @@ use context::Context;
 /// Runs the claims asked for and writes the report; its path is the last line on standard output.
 pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     if arguments.device == command::DeviceName::Gpu {
-        return Err(Failure::usage(
-            "--device gpu is not built yet; leave it out",
-        ));
+        return Err(Failure::usage("--device gpu is not built yet; leave it out"));
     }
     system::start_threads(arguments.threads)?;
     let budget = arguments.budget.budget();
     let claims = chosen(&arguments.claims)?;
-    let out = arguments
-        .out
-        .clone()
-        .unwrap_or_else(|| Path::new("target/reproduce").join(budget.name()));
+    let out = arguments.out.clone().unwrap_or_else(|| Path::new("target/reproduce").join(budget.name()));
     for folder in ["records", "records/images", "figures"] {
         std::fs::create_dir_all(out.join(folder)).map_err(|error| {
             Failure::usage(format!(
@@ -54,9 +49,7 @@ fn run(claim: Claim, budget: Budget, out: &Path) -> Result<Record, Failure> {
     let context = Context::new(claim, budget, out)?;
     let record = claim.run(&context)?;
     let _guard = interrupt::writing();
-    record
-        .save(&out.join("records").join(format!("{}.json", claim.id())))
-        .map_err(anyhow::Error::from)?;
+    record.save(&out.join("records").join(format!("{}.json", claim.id()))).map_err(anyhow::Error::from)?;
     Ok(record)
 }
 
@@ -67,28 +60,17 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     }
     let known = || Claim::ALL.map(Claim::id).join(", ");
     let find = |word: &String| match word.as_str() {
-        "catalogue" | "atlas" => Err(Failure::usage(format!(
-            "{word} is not built yet; claims built: {}",
-            known()
-        ))),
+        "catalogue" | "atlas" => Err(Failure::usage(format!("{word} is not built yet; claims built: {}", known()))),
         _ => Claim::ALL
             .into_iter()
             .find(|claim| claim.id() == word)
-            .ok_or_else(|| {
-                Failure::usage(format!(
-                    "no claim is called `{word}`; claims built: {}",
-                    known()
-                ))
-            }),
+            .ok_or_else(|| Failure::usage(format!("no claim is called `{word}`; claims built: {}", known()))),
     };
     words.iter().map(find).collect()
 }
 
 fn verdict_word(record: &Record) -> String {
-    serde_json::to_value(record.verdict)
-        .ok()
-        .and_then(|v| v.as_str().map(str::to_owned))
-        .unwrap_or_default()
+    serde_json::to_value(record.verdict).ok().and_then(|v| v.as_str().map(str::to_owned)).unwrap_or_default()
 }
 
 /// Where a claim's pictures go, relative to its record.

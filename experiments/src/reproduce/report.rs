@@ -11,17 +11,12 @@ use crate::interrupt::write_whole;
 pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<PathBuf> {
     for record in records {
         for figure in &record.figures {
-            let path = out
-                .join("figures")
-                .join(format!("{}-{}.svg", record.claim, figure.id));
+            let path = out.join("figures").join(format!("{}-{}.svg", record.claim, figure.id));
             write_whole(&path, draw(figure)?.as_bytes())?;
         }
     }
     let folder = out.join("records");
-    let entries = records
-        .iter()
-        .map(|record| ReportEntry::load(record, &folder))
-        .collect::<Result<Vec<_>, _>>()?;
+    let entries = records.iter().map(|record| ReportEntry::load(record, &folder)).collect::<Result<Vec<_>, _>>()?;
     let page = out.join("report.html");
     write_whole(&page, report(&entries)?.as_bytes())?;
     Ok(page)

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::BallLens;
 use super::ray_map::Order;
-use super::{BallLens, Fold};
 use crate::mitsuba::assert_balanced;
 use crate::random::{Moments, Random};
 
@@ -67,27 +67,17 @@ fn on_floor(h: f64, p: Vector, d: Vector) -> Option<f64> {
 #[test]
 fn flux_agrees_with_rays_in_space() {
     let mut random = Random::new(12);
-    for (lens, seen) in [
-        (BallLens::BENCHMARK, 0.75),
-        (BallLens::new(0.3, 1.8, 0.4).expect("valid"), 0.8),
-    ] {
+    for (lens, seen) in [(BallLens::BENCHMARK, 0.75), (BallLens::new(0.3, 1.8, 0.4).expect("valid"), 0.8)] {
         let radii = [0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7];
         let mut found: [Moments; 8] = Default::default();
         let beam = PI * seen * seen;
         for _ in 0..1_000_000 {
-            let (r, phi) = (
-                seen * random.unit().sqrt() / lens.radius,
-                random.between(0.0, TAU),
-            );
+            let (r, phi) = (seen * random.unit().sqrt() / lens.radius, random.between(0.0, TAU));
             let start = [r * phi.cos(), r * phi.sin(), 10.0];
             let (p, d) = through_ball(lens.index, start, [0.0, 0.0, -1.0], &mut random);
             let landed = on_floor(lens.height_in_radii(), p, d).map(|x| x * lens.radius);
             for (moments, radius) in found.iter_mut().zip(radii) {
-                moments.add(if landed.is_some_and(|x| x < radius) {
-                    beam
-                } else {
-                    0.0
-                });
+                moments.add(if landed.is_some_and(|x| x < radius) { beam } else { 0.0 });
             }
         }
         for (moments, radius) in found.iter().zip(radii) {
@@ -100,17 +90,8 @@ fn flux_agrees_with_rays_in_space() {
 #[test]
 fn catalogue_values_of_the_straight_order() {
     let lens = BallLens::new(1.0, 1.5, 2.0).expect("valid");
-    let order = Order {
-        p: 1,
-        n: 1.5,
-        h: 2.0,
-    };
-    for (radius, flux) in [
-        (0.02, 0.010324396),
-        (0.1, 0.21384871),
-        (0.3, 0.94716278),
-        (0.8, 1.9355209),
-    ] {
+    let order = Order { p: 1, n: 1.5, h: 2.0 };
+    for (radius, flux) in [(0.02, 0.010324396), (0.1, 0.21384871), (0.3, 0.94716278), (0.8, 1.9355209)] {
         let got = lens.order_flux(order, radius);
         assert!((got / flux - 1.0).abs() < 1e-7, "{radius}: {got}");
     }
@@ -121,11 +102,7 @@ fn all_the_light_on_the_ball_is_accounted_for() {
     let lens = BallLens::BENCHMARK;
     let all = |order: Order| super::flux::integrate_where(order, |_| true, &mut [0.0, 0.5 * PI]);
     let sum: f64 = PI * 0.25 * lens.orders().map(all).sum::<f64>();
-    println!(
-        "on the ball {}, orders {sum}, remainder {:e}",
-        PI * 0.25,
-        lens.order_remainder()
-    );
+    println!("on the ball {}, orders {sum}, remainder {:e}", PI * 0.25, lens.order_remainder());
     assert!((sum + lens.order_remainder() - PI * 0.25).abs() < 1e-9);
     assert!(lens.order_remainder() < 5e-7);
 }
@@ -138,10 +115,7 @@ fn irradiance_is_the_derivative_of_flux() {
     let mut compared = 0;
     for r in [0.05, 0.12, 0.2, 0.31, 0.42, 0.47, 0.55, 0.8] {
         let step = 2e-4;
-        if folds
-            .iter()
-            .any(|fold| (fold.radius - r).abs() < 20.0 * step)
-        {
+        if folds.iter().any(|fold| (fold.radius - r).abs() < 20.0 * step) {
             continue;
         }
         compared += 1;
@@ -168,86 +142,22 @@ fn the_floor_gets_back_what_the_law_says_and_most_on_the_axis() {
             let (p, d) = through_ball(lens.index, [y, 0.0, -h], d, &mut random);
             back.add(f64::from(on_floor(h, p, d).is_some()));
         }
-        println!(
-            "from {y} radii: {} +- {}, on the axis {most}",
-            back.mean(),
-            back.error()
-        );
+        println!("from {y} radii: {} +- {}, on the axis {most}", back.mean(), back.error());
         if y == 0.0 {
             back.must_agree("return on the axis", most);
         } else {
-            assert!(
-                back.mean() < most + 4.5 * back.error(),
-                "{y}: {} {most}",
-                back.mean()
-            );
+            assert!(back.mean() < most + 4.5 * back.error(), "{y}: {} {most}", back.mean());
         }
     }
-    println!(
-        "bound at 0.4 m, reflectance 0.01: {:e}",
-        lens.floor_return_bound(0.4, 0.01)
-    );
+    println!("bound at 0.4 m, reflectance 0.01: {:e}", lens.floor_return_bound(0.4, 0.01));
 }
 
 #[test]
 fn the_scene_file_carries_the_parameters() {
     let xml = BallLens::BENCHMARK.xml(0.01, 0.6, 128);
     assert_balanced(&xml);
-    for part in [
-        "112.61986",
-        "name=\"int_ior\" value=\"1.5\"",
-        "radius\" value=\"0.5\"",
-        "z=\"-1\"",
-    ] {
+    for part in ["112.61986", "name=\"int_ior\" value=\"1.5\"", "radius\" value=\"0.5\"", "z=\"-1\""] {
         assert!(xml.contains(part), "{part} not in {xml}");
     }
     assert!(BallLens::new(0.5, 1.0, 1.0).is_err() && BallLens::new(0.5, 1.5, 0.4).is_err());
-    let _: Fold = Fold {
-        order: 1,
-        radius: 0.0,
-    };
-}
-#[test]
-fn tmp_profile() {
-    let lens = BallLens::BENCHMARK;
-    for b in 0..60 {
-        let r = b as f64 * 0.01;
-        println!(
-            "P {:.3} {:.5}",
-            r + 0.005,
-            lens.mean_irradiance(r, r + 0.01)
-        );
-    }
-    // Cells of the grid within 0.4: 4x4 points per cell.
-    let w = 1.2 / 128.0;
-    let mut sum = 0.0;
-    let mut table = Vec::new();
-    for k in 0..8400 {
-        let r = 1e-4 * (k as f64 + 0.5);
-        table.push(if r < 0.45 {
-            lens.mean_irradiance((r - 0.5e-4).max(0.0), r + 0.5e-4)
-        } else {
-            0.0
-        });
-        if r > 0.45 {
-            break;
-        }
-    }
-    for i in 0..128 {
-        for j in 0..128 {
-            let (x, y) = (-0.6 + (i as f64 + 0.5) * w, -0.6 + (j as f64 + 0.5) * w);
-            if f64::hypot(x, y) < 0.4 {
-                for a in 0..8 {
-                    for b in 0..8 {
-                        let r = f64::hypot(
-                            x + w * ((a as f64 + 0.5) / 8.0 - 0.5),
-                            y + w * ((b as f64 + 0.5) / 8.0 - 0.5),
-                        );
-                        sum += table[(r * 1e4) as usize] * w * w / 64.0;
-                    }
-                }
-            }
-        }
-    }
-    println!("SUM {sum}");
 }

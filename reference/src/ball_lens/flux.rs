@@ -26,10 +26,7 @@ impl BallLens {
     /// Precision: quadrature 1e-9, and at most [`BallLens::order_remainder`] is missing.
     pub fn flux_within(&self, radius: f64) -> f64 {
         let passing = (radius * radius - self.radius * self.radius).max(0.0);
-        let through: f64 = self
-            .orders()
-            .map(|order| self.order_flux(order, radius))
-            .sum();
+        let through: f64 = self.orders().map(|order| self.order_flux(order, radius)).sum();
         PI * passing + through
     }
 
@@ -66,10 +63,7 @@ impl BallLens {
             for i in order.zeros(|i| order.stretch(i)) {
                 let radius = order.lands(i).map(|x| x.abs() * self.radius);
                 if let Some(radius) = radius.filter(|&radius| radius <= reach) {
-                    folds.push(Fold {
-                        order: order.p,
-                        radius,
-                    });
+                    folds.push(Fold { order: order.p, radius });
                 }
             }
         }

@@ -29,32 +29,14 @@ pub struct BallLens {
 
 impl BallLens {
     /// The benchmark: radius 0.5 m, index 1.5, centre 1 m above the floor.
-    pub const BENCHMARK: BallLens = BallLens {
-        radius: 0.5,
-        index: 1.5,
-        height: 1.0,
-    };
+    pub const BENCHMARK: BallLens = BallLens { radius: 0.5, index: 1.5, height: 1.0 };
 
     /// A ball of `radius` (m) and refractive `index` above 1, its centre `height` (m, at least the radius) above the floor.
     pub fn new(radius: f64, index: f64, height: f64) -> Result<Self, OutOfRange> {
         require_positive("radius", radius)?;
-        require(
-            index > 1.0 && index.is_finite(),
-            "index",
-            index,
-            "finite and above 1",
-        )?;
-        require(
-            height >= radius && height.is_finite(),
-            "height",
-            height,
-            "at least the radius",
-        )?;
-        Ok(BallLens {
-            radius,
-            index,
-            height,
-        })
+        require(index > 1.0 && index.is_finite(), "index", index, "finite and above 1")?;
+        require(height >= radius && height.is_finite(), "height", height, "at least the radius")?;
+        Ok(BallLens { radius, index, height })
     }
 
     /// Height of the centre in ball radii.

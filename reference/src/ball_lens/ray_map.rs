@@ -26,11 +26,7 @@ impl Order {
     /// Share of the incident flux.
     pub(super) fn share(&self, i: f64) -> f64 {
         let f = fresnel(i, self.n);
-        if self.p == 0 {
-            f
-        } else {
-            (1.0 - f).powi(2) * f.powi(self.p as i32 - 1)
-        }
+        if self.p == 0 { f } else { (1.0 - f).powi(2) * f.powi(self.p as i32 - 1) }
     }
 
     /// Angle by which the ray is turned towards the axis.
@@ -84,11 +80,7 @@ fn bisect(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     let negative = f(a) < 0.0;
     for _ in 0..60 {
         let middle = 0.5 * (a + b);
-        if (f(middle) < 0.0) == negative {
-            a = middle
-        } else {
-            b = middle
-        }
+        if (f(middle) < 0.0) == negative { a = middle } else { b = middle }
     }
     0.5 * (a + b)
 }

@@ -30,34 +30,17 @@ impl Mesh {
             let (near, far) = (ends[p], ends[p + 1]);
             for (&x, &w) in rule.nodes.iter().zip(&rule.weights) {
                 let cubic = p == 0;
-                s.push(if cubic {
-                    far * x * x * x
-                } else {
-                    near + (far - near) * x
-                });
-                weight.push(if cubic {
-                    3.0 * far * x * x * w
-                } else {
-                    (far - near) * w
-                });
+                s.push(if cubic { far * x * x * x } else { near + (far - near) * x });
+                weight.push(if cubic { 3.0 * far * x * x * w } else { (far - near) * w });
             }
         }
         let barycentric = (0..order)
             .map(|i| {
                 let others = (0..order).filter(|&j| j != i);
-                others
-                    .map(|j| 1.0 / (rule.nodes[i] - rule.nodes[j]))
-                    .product()
+                others.map(|j| 1.0 / (rule.nodes[i] - rule.nodes[j])).product()
             })
             .collect();
-        Mesh {
-            s,
-            weight,
-            order,
-            ends,
-            rule,
-            barycentric,
-        }
+        Mesh { s, weight, order, ends, rule, barycentric }
     }
 
     /// Number of nodes.
@@ -73,22 +56,13 @@ impl Mesh {
     /// Adds `factor` times the Lagrange basis of panel `p` at distance `s` to `out`, one entry per node of the panel.
     pub(crate) fn add_basis(&self, p: usize, s: f64, factor: f64, out: &mut [f64]) {
         let (near, far) = (self.ends[p], self.ends[p + 1]);
-        let x = if p == 0 {
-            (s / far).max(0.0).cbrt()
-        } else {
-            (s - near) / (far - near)
-        };
+        let x = if p == 0 { (s / far).max(0.0).cbrt() } else { (s - near) / (far - near) };
         // Barycentric form of the second kind (Berrut and Trefethen, SIAM Review 46, 2004).
         if let Some(hit) = self.rule.nodes.iter().position(|&node| node == x) {
             out[hit] += factor;
             return;
         }
-        let terms = self
-            .rule
-            .nodes
-            .iter()
-            .zip(&self.barycentric)
-            .map(|(node, b)| b / (x - node));
+        let terms = self.rule.nodes.iter().zip(&self.barycentric).map(|(node, b)| b / (x - node));
         let sum: f64 = terms.clone().sum();
         for (o, term) in out.iter_mut().zip(terms) {
             *o += factor * term / sum;
@@ -104,11 +78,7 @@ mod tests {
     fn weights_integrate_the_edge_power() {
         let mesh = Mesh::new(8, 6, 0.3);
         for power in [0.0, 0.6, 1.0, 2.5] {
-            let terms = mesh
-                .s
-                .iter()
-                .zip(&mesh.weight)
-                .map(|(s, w): (&f64, _)| w * s.powf(power));
+            let terms = mesh.s.iter().zip(&mesh.weight).map(|(s, w): (&f64, _)| w * s.powf(power));
             let got: f64 = terms.sum();
             assert!((got * (power + 1.0) - 1.0).abs() < 1e-9, "s^{power}: {got}");
         }
@@ -124,10 +94,7 @@ mod tests {
                 mesh.add_basis(p, s, 1.0, &mut basis);
                 let nodes = &mesh.s[p * mesh.order..(p + 1) * mesh.order];
                 let got: f64 = basis.iter().zip(nodes).map(|(b, s)| b * s.powf(0.7)).sum();
-                assert!(
-                    (got - s.powf(0.7)).abs() < 1e-5,
-                    "panel {p}, s = {s}: {got}"
-                );
+                assert!((got - s.powf(0.7)).abs() < 1e-5, "panel {p}, s = {s}: {got}");
             }
         }
     }

@@ -42,39 +42,17 @@ pub struct Published {
 
 impl Cube {
     /// The published benchmark: edge 10 m, 50 000 cd, reflectance 2/3.
-    pub const BENCHMARK: Cube = Cube {
-        half_edge: 5.0,
-        intensity: 50_000.0,
-        reflectance: 2.0 / 3.0,
-    };
+    pub const BENCHMARK: Cube = Cube { half_edge: 5.0, intensity: 50_000.0, reflectance: 2.0 / 3.0 };
 
     /// The table published for [`Cube::BENCHMARK`] (Khodulev and Kopylov, GraphiCon 1996). The positions of the second,
     /// third and fifth row are inferred, and confirmed by [`Cube::solve`].
     pub const PUBLISHED: [Published; 6] = [
-        Published {
-            at: [0.0, 0.0],
-            luminance: 892.8,
-        },
-        Published {
-            at: [0.5, 0.0],
-            luminance: 768.7,
-        },
-        Published {
-            at: [0.5, 0.5],
-            luminance: 686.6,
-        },
-        Published {
-            at: [1.0, 0.0],
-            luminance: 565.1,
-        },
-        Published {
-            at: [1.0, 0.5],
-            luminance: 522.4,
-        },
-        Published {
-            at: [1.0, 1.0],
-            luminance: 388.4,
-        },
+        Published { at: [0.0, 0.0], luminance: 892.8 },
+        Published { at: [0.5, 0.0], luminance: 768.7 },
+        Published { at: [0.5, 0.5], luminance: 686.6 },
+        Published { at: [1.0, 0.0], luminance: 565.1 },
+        Published { at: [1.0, 0.5], luminance: 522.4 },
+        Published { at: [1.0, 1.0], luminance: 388.4 },
     ];
 
     /// A cube of edge `2 half_edge` (m), a source of `intensity` (W/sr or cd), and the diffuse `reflectance` of all
@@ -83,11 +61,7 @@ impl Cube {
         require_positive("half_edge", half_edge)?;
         require_positive("intensity", intensity)?;
         require_albedo("reflectance", reflectance)?;
-        Ok(Cube {
-            half_edge,
-            intensity,
-            reflectance,
-        })
+        Ok(Cube { half_edge, intensity, reflectance })
     }
 
     /// Half the edge in metres.

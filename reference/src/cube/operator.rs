@@ -30,10 +30,7 @@ pub(crate) struct Operator {
 impl Operator {
     /// The operator on this mesh.
     pub(crate) fn new(mesh: Mesh) -> Self {
-        Operator {
-            mesh,
-            fine: Gauss::new(12),
-        }
+        Operator { mesh, fine: Gauss::new(12) }
     }
 
     /// Number of unknowns: pairs of nodes, order ignored, since the two axes of a face are alike.
@@ -51,9 +48,7 @@ impl Operator {
     pub(crate) fn shares(&self) -> Vec<f64> {
         let w = &self.mesh.weight;
         let share = |i: usize, j: usize| w[i] * w[j] * if i == j { 1.0 } else { 2.0 };
-        (0..w.len())
-            .flat_map(|i| (0..=i).map(move |j| share(i, j)))
-            .collect()
+        (0..w.len()).flat_map(|i| (0..=i).map(move |j| share(i, j))).collect()
     }
 
     /// The weights with which the unknowns' exitances add up to the irradiance at the point with distances `s` from
@@ -68,21 +63,13 @@ impl Operator {
             self.add_neighbour(2.0 - across, along, &mut square);
         }
         let both = |i: usize, j: usize| {
-            if i == j {
-                square[i * n + i]
-            } else {
-                square[i * n + j] + square[j * n + i]
-            }
+            if i == j { square[i * n + i] } else { square[i * n + j] + square[j * n + i] }
         };
-        (0..n)
-            .flat_map(|i| (0..=i).map(move |j| both(i, j)))
-            .collect()
+        (0..n).flat_map(|i| (0..=i).map(move |j| both(i, j))).collect()
     }
 
     fn add_opposite(&self, s: [f64; 2], square: &mut [f64]) {
-        let Mesh {
-            s: nodes, weight, ..
-        } = &self.mesh;
+        let Mesh { s: nodes, weight, .. } = &self.mesh;
         for (i, row) in square.chunks_exact_mut(nodes.len()).enumerate() {
             for du in [s[0] - nodes[i], 2.0 - s[0] - nodes[i]] {
                 for (j, value) in row.iter_mut().enumerate() {
@@ -97,12 +84,7 @@ impl Operator {
 
     /// Adds a neighbouring face for a point at distance `a` from the shared edge, `along` from that edge's nearer end.
     fn add_neighbour(&self, a: f64, along: f64, square: &mut [f64]) {
-        let Mesh {
-            s: nodes,
-            weight,
-            order,
-            ..
-        } = &self.mesh;
+        let Mesh { s: nodes, weight, order, .. } = &self.mesh;
         let n = nodes.len();
         let mut line = vec![0.0; n];
         let close = self.mesh.ends[1] * 4.0 > a;
@@ -114,9 +96,7 @@ impl Operator {
             for z in near_half.into_iter().chain([2.0 - nodes[i]]) {
                 self.line(a.hypot(z), along, &mut line);
                 let factor = weight[i] * a * z / PI;
-                row.iter_mut()
-                    .zip(&line)
-                    .for_each(|(value, x)| *value += factor * x);
+                row.iter_mut().zip(&line).for_each(|(value, x)| *value += factor * x);
             }
         }
     }
@@ -130,13 +110,10 @@ impl Operator {
             let (z, c) = (a * t.sinh(), a * t.cosh());
             self.line(c, along, &mut line);
             basis.fill(0.0);
-            self.mesh
-                .add_basis(0, z, weight * a * z * c / PI, &mut basis);
+            self.mesh.add_basis(0, z, weight * a * z * c / PI, &mut basis);
             for (i, b) in basis.iter().enumerate() {
                 let row = &mut square[i * n..(i + 1) * n];
-                row.iter_mut()
-                    .zip(&line)
-                    .for_each(|(value, x)| *value += b * x);
+                row.iter_mut().zip(&line).for_each(|(value, x)| *value += b * x);
             }
         });
     }
@@ -182,8 +159,7 @@ impl Operator {
         self.segments(from, to, |t, weight| {
             let cosh = c * t.cosh();
             let s = (centre + c * t.sinh()).clamp(near, far);
-            self.mesh
-                .add_basis(p, s, weight / (cosh * cosh * cosh), out);
+            self.mesh.add_basis(p, s, weight / (cosh * cosh * cosh), out);
         });
     }
 

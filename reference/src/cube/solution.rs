@@ -31,12 +31,7 @@ impl CubeSolution {
             let fine = Solved::new(&cube, Mesh::new(8, 6, 0.3));
             (fine, check.join().expect("no panic on the check mesh"))
         });
-        let mut solution = CubeSolution {
-            cube,
-            fine,
-            check,
-            error_bound: 0.0,
-        };
+        let mut solution = CubeSolution { cube, fine, check, error_bound: 0.0 };
         let places = [0.0, 0.3, 0.5, 0.75, 0.9, 0.97, 0.99, 0.998, 0.9995, 1.0];
         for (i, &u) in places.iter().enumerate() {
             for &v in &places[..=i] {
@@ -95,9 +90,7 @@ impl CubeSolution {
     /// The illuminance after exactly one reflection, by the same operator as the solution.
     pub(super) fn first_bounce(&self, u: f64, v: f64) -> f64 {
         let points = self.fine.operator.points();
-        let direct: Vec<f64> = points
-            .map(|[a, b]| self.cube.direct(1.0 - a, 1.0 - b))
-            .collect();
+        let direct: Vec<f64> = points.map(|[a, b]| self.cube.direct(1.0 - a, 1.0 - b)).collect();
         self.cube.reflectance() * dot(&self.fine.row(u, v), &direct)
     }
 }
@@ -112,31 +105,19 @@ impl Solved {
         let operator = Operator::new(mesh);
         let (rho, shares) = (cube.reflectance(), operator.shares());
         let rows: Vec<Vec<f64>> = operator.points().map(|s| operator.row(s)).collect();
-        let direct: Vec<f64> = operator
-            .points()
-            .map(|[a, b]| cube.direct(1.0 - a, 1.0 - b))
-            .collect();
+        let direct: Vec<f64> = operator.points().map(|[a, b]| cube.direct(1.0 - a, 1.0 - b)).collect();
         let mut irradiance = direct.clone();
         for _ in 0..200 {
             let residual: Vec<f64> = (0..operator.unknowns())
                 .map(|i| direct[i] - irradiance[i] + rho * dot(&rows[i], &irradiance))
                 .collect();
             let uniform = rho / (1.0 - rho) * dot(&shares, &residual);
-            irradiance
-                .iter_mut()
-                .zip(&residual)
-                .for_each(|(e, r)| *e += r + uniform);
-            if residual
-                .iter()
-                .all(|r| r.abs() < 1e-13 * (1.0 - rho) * direct[0])
-            {
+            irradiance.iter_mut().zip(&residual).for_each(|(e, r)| *e += r + uniform);
+            if residual.iter().all(|r| r.abs() < 1e-13 * (1.0 - rho) * direct[0]) {
                 break;
             }
         }
-        Solved {
-            operator,
-            irradiance,
-        }
+        Solved { operator, irradiance }
     }
 
     fn at(&self, cube: &Cube, u: f64, v: f64) -> f64 {
@@ -144,10 +125,7 @@ impl Solved {
     }
 
     fn row(&self, u: f64, v: f64) -> Vec<f64> {
-        assert!(
-            u.abs() <= 1.0 && v.abs() <= 1.0,
-            "({u}, {v}) is outside the face"
-        );
+        assert!(u.abs() <= 1.0 && v.abs() <= 1.0, "({u}, {v}) is outside the face");
         self.operator.row([1.0 - u.abs(), 1.0 - v.abs()])
     }
 }
@@ -169,26 +147,14 @@ mod tests {
     fn published_values_and_energy() {
         let start = std::time::Instant::now();
         let solution = Cube::BENCHMARK.solve();
-        println!(
-            "solved in {:?}, error bound {:e}",
-            start.elapsed(),
-            solution.error_bound()
-        );
-        for Published {
-            at: [u, v],
-            luminance,
-        } in Cube::PUBLISHED
-        {
+        println!("solved in {:?}, error bound {:e}", start.elapsed(), solution.error_bound());
+        for Published { at: [u, v], luminance } in Cube::PUBLISHED {
             let (got, error) = (solution.luminance(u, v), relative_error(&solution, u, v));
             println!("({u}, {v}): {got:.5} (published {luminance}), relative error {error:.1e}");
             // The table has four digits; its third value is 686.6 where the solution reads 686.697.
             assert!((got - luminance).abs() < 0.1, "({u}, {v}): {got}");
         }
-        for (at, value) in [
-            ([0.998, 0.0], 568.7),
-            ([0.998, 0.5], 525.6),
-            ([0.998, 0.998], 395.8),
-        ] {
+        for (at, value) in [([0.998, 0.0], 568.7), ([0.998, 0.5], 525.6), ([0.998, 0.998], 395.8)] {
             let got = solution.luminance(at[0], at[1]);
             let error = relative_error(&solution, at[0], at[1]);
             println!("{at:?}: {got:.5}, relative error {error:.1e}");

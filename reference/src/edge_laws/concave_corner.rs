@@ -24,17 +24,9 @@ impl ConcaveCorner {
     pub fn new(a: f64, b: f64, own: f64, beyond: [f64; 2]) -> Self {
         let leak = |to: f64, along: f64| {
             let rho2 = 1.0 - to * to;
-            if rho2 > 0.0 {
-                0.5 * rho2 * half_plane(along / rho2.sqrt())
-            } else {
-                0.0
-            }
+            if rho2 > 0.0 { 0.5 * rho2 * half_plane(along / rho2.sqrt()) } else { 0.0 }
         };
-        ConcaveCorner {
-            own: own * corner(a, b),
-            leak_a: beyond[0] * leak(a, b),
-            leak_b: beyond[1] * leak(b, a),
-        }
+        ConcaveCorner { own: own * corner(a, b), leak_a: beyond[0] * leak(a, b), leak_b: beyond[1] * leak(b, a) }
     }
 
     /// What a sphere without a normal test reads.
@@ -77,10 +69,7 @@ mod tests {
                 }
             }
             let reading = ConcaveCorner::new(a, b, 1.0, [1.0, 1.0]);
-            for (moments, exact) in found
-                .iter()
-                .zip([reading.leak_a, reading.leak_b, reading.own])
-            {
+            for (moments, exact) in found.iter().zip([reading.leak_a, reading.leak_b, reading.own]) {
                 moments.must_agree(&format!("corner ({a}, {b})"), exact);
             }
         }

@@ -30,15 +30,8 @@ impl CreaseReading {
 pub fn crease(t: f64, theta: f64, own: f64, other: f64) -> CreaseReading {
     let (sine, cosine) = theta.sin_cos();
     let rho2 = 1.0 - (t * sine).powi(2);
-    let leak = if rho2 > 0.0 {
-        rho2 * half_plane(t * cosine / rho2.sqrt())
-    } else {
-        0.0
-    };
-    CreaseReading {
-        own: own * half_plane(t),
-        leak: other * leak,
-    }
+    let leak = if rho2 > 0.0 { rho2 * half_plane(t * cosine / rho2.sqrt()) } else { 0.0 };
+    CreaseReading { own: own * half_plane(t), leak: other * leak }
 }
 
 /// Where the reading at a 90-degree crease with equal irradiance is largest, and that largest reading:

@@ -55,11 +55,7 @@ mod tests {
         for a in [0.0, 0.25, 0.5, 0.9, 1.2] {
             for b in [0.0, 0.3, 0.7071, 0.8, 1.0] {
                 let brute = polar::area(&[(0.0, a), (0.5 * PI, b)]);
-                assert!(
-                    (corner(a, b) - brute).abs() < 1e-8,
-                    "{a} {b}: {} {brute}",
-                    corner(a, b)
-                );
+                assert!((corner(a, b) - brute).abs() < 1e-8, "{a} {b}: {} {brute}", corner(a, b));
             }
         }
         assert!((corner(0.25, 0.75) - 0.60235029).abs() < 1e-8);

@@ -42,10 +42,7 @@ mod tests {
                 let both = half_plane_kernel(t, n) + half_plane_kernel(-t, n);
                 assert!((both - 1.0).abs() < 1e-14, "{t} {n}");
             }
-            assert!(
-                (half_plane(t) - half_plane_kernel(t, 0)).abs() < 1e-12,
-                "{t}"
-            );
+            assert!((half_plane(t) - half_plane_kernel(t, 0)).abs() < 1e-12, "{t}");
         }
     }
 

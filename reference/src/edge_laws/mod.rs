@@ -32,11 +32,7 @@ mod polar {
             let phi = TAU * (i as f64 + 0.5) / n as f64;
             let reach = half_planes.iter().map(|&(angle, d)| {
                 let cosine = -(phi - angle).cos();
-                if cosine > 0.0 {
-                    d / cosine
-                } else {
-                    f64::INFINITY
-                }
+                if cosine > 0.0 { d / cosine } else { f64::INFINITY }
             });
             cumulative(reach.fold(1.0, f64::min))
         };

@@ -28,11 +28,7 @@ mod tests {
             for _ in 0..200_000 {
                 let (x, y) = (random.between(-1.0, 1.0), random.between(-1.0, 1.0));
                 let inside = x * x + y * y + h * h <= 1.0;
-                found.add(if inside {
-                    4.0 / std::f64::consts::PI
-                } else {
-                    0.0
-                });
+                found.add(if inside { 4.0 / std::f64::consts::PI } else { 0.0 });
             }
             found.must_agree(&format!("wall {h}"), thin_wall(h));
         }

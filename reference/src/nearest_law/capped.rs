@@ -21,9 +21,7 @@ pub fn capped(k: u32, mu: f64, counted: Counted) -> f64 {
 /// `sum_{n=2}^{k-1} n^2 / (n - 1) P(Pois(mu) = n) / mu` plus the full part. Good to 1e-12.
 pub fn starved_by_furthest(k: u32, mu: f64) -> f64 {
     let probability = |n: f64| (n * mu.ln() - mu - ln_gamma(n + 1.0)).exp();
-    let starved = (2..k)
-        .map(f64::from)
-        .map(|n| n * n / (n - 1.0) * probability(n) / mu);
+    let starved = (2..k).map(f64::from).map(|n| n * n / (n - 1.0) * probability(n) / mu);
     let shape = f64::from(k) - 1.0;
     starved.sum::<f64>() + f64::from(k) / shape * gamma_lr(shape, mu)
 }
@@ -35,11 +33,9 @@ mod tests {
 
     #[test]
     fn catalogue_values() {
-        for (mu, naive, furthest) in [
-            (5.0, 1.0000001, 1.2492948),
-            (20.0, 1.0325567, 1.0576636),
-            (100.0, 1.0526316, 1.0526316),
-        ] {
+        for (mu, naive, furthest) in
+            [(5.0, 1.0000001, 1.2492948), (20.0, 1.0325567, 1.0576636), (100.0, 1.0526316, 1.0526316)]
+        {
             assert!((capped(20, mu, Counted::AllButLast) - 1.0).abs() < 1e-12);
             assert!((capped(20, mu, Counted::All) - naive).abs() < 1e-7);
             assert!((starved_by_furthest(20, mu) - furthest).abs() < 1e-7);

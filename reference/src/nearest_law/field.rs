@@ -19,12 +19,7 @@ use crate::quadrature::Gauss;
 ///
 /// # Panics
 /// If `k < 2`: the mean is infinite.
-pub fn in_field(
-    k: u32,
-    counted: Counted,
-    expected: impl Fn(f64) -> f64,
-    kinks: &[f64],
-) -> RelativeMoments {
+pub fn in_field(k: u32, counted: Counted, expected: impl Fn(f64) -> f64, kinks: &[f64]) -> RelativeMoments {
     assert!(k >= 2, "the mean is infinite for k = {k}");
     let shape = f64::from(k);
     let found = |x: f64| {
@@ -43,18 +38,13 @@ pub fn in_field(
     let rule = Gauss::new(16);
     let (mut first, mut second) = (1.0 / end, 1.0 / (end * end));
     for pair in breaks.windows(2) {
-        let integral =
-            |power: i32| rule.composite(pair[0], pair[1], 96, |x| found(x) / x.powi(power));
+        let integral = |power: i32| rule.composite(pair[0], pair[1], 96, |x| found(x) / x.powi(power));
         first += integral(2);
         second += 2.0 * integral(3);
     }
     let m = counted.of(k);
     let mean = m * first;
-    let variance = if k > 2 {
-        m * m * second - mean * mean
-    } else {
-        f64::INFINITY
-    };
+    let variance = if k > 2 { m * m * second - mean * mean } else { f64::INFINITY };
     RelativeMoments { mean, variance }
 }
 
@@ -62,34 +52,19 @@ pub fn in_field(
 /// radius in the flat field. At the edge the mean is 1/2 for every `k` (with `k - 1` counted).
 pub fn half_plane(k: u32, d: f64, counted: Counted) -> RelativeMoments {
     let t = |x: f64| d * (f64::from(k) / x).sqrt();
-    in_field(
-        k,
-        counted,
-        |x| x * edge_laws::half_plane(t(x)),
-        &[kink(k, d)],
-    )
+    in_field(k, counted, |x| x * edge_laws::half_plane(t(x)), &[kink(k, d)])
 }
 
 /// At distance `d` from both edges of a lit quadrant, in units of `r0`.
 pub fn corner(k: u32, d: f64, counted: Counted) -> RelativeMoments {
     let t = |x: f64| d * (f64::from(k) / x).sqrt();
-    in_field(
-        k,
-        counted,
-        |x| x * edge_laws::corner(t(x), t(x)),
-        &[kink(k, d), 2.0 * kink(k, d)],
-    )
+    in_field(k, counted, |x| x * edge_laws::corner(t(x), t(x)), &[kink(k, d), 2.0 * kink(k, d)])
 }
 
 /// On the centre line of a lit strip of width `2 d`, in units of `r0`.
 pub fn strip_centre(k: u32, d: f64, counted: Counted) -> RelativeMoments {
     let t = |x: f64| d * (f64::from(k) / x).sqrt();
-    in_field(
-        k,
-        counted,
-        |x| x * edge_laws::strip(2.0 * t(x), t(x)),
-        &[kink(k, d)],
-    )
+    in_field(k, counted, |x| x * edge_laws::strip(2.0 * t(x), t(x)), &[kink(k, d)])
 }
 
 /// At distance `d` (in units of `r0`) from a crease of two equally lit half-planes at the dihedral angle `theta` (radians),
@@ -98,12 +73,7 @@ pub fn crease(k: u32, d: f64, theta: f64, counted: Counted) -> RelativeMoments {
     let t = |x: f64| d * (f64::from(k) / x).sqrt();
     let total = |x: f64| x * edge_laws::crease(t(x), theta, 1.0, 1.0).total();
     // The ball reaches the other plane at distance |sin| d, or the edge itself at d.
-    in_field(
-        k,
-        counted,
-        total,
-        &[kink(k, d), kink(k, d) * theta.sin().powi(2)],
-    )
+    in_field(k, counted, total, &[kink(k, d), kink(k, d) * theta.sin().powi(2)])
 }
 
 /// On the dark face of a slab whose lit face is `h` behind, in units of `r0`: `m E[1 / (eta + G)]` with
@@ -136,19 +106,9 @@ mod tests {
     fn the_flat_field_gives_the_closed_form() {
         for k in [2, 3, 5, 20, 200, 2000] {
             for counted in [Counted::All, OURS] {
-                let (got, exact) = (
-                    in_field(k, counted, |x| x, &[]),
-                    super::super::uniform(k, counted),
-                );
-                assert!(
-                    (got.mean / exact.mean - 1.0).abs() < 1e-9,
-                    "{k}: {}",
-                    got.mean
-                );
-                assert!(
-                    k == 2 || (got.variance / exact.variance - 1.0).abs() < 1e-6,
-                    "{k}"
-                );
+                let (got, exact) = (in_field(k, counted, |x| x, &[]), super::super::uniform(k, counted));
+                assert!((got.mean / exact.mean - 1.0).abs() < 1e-9, "{k}: {}", got.mean);
+                assert!(k == 2 || (got.variance / exact.variance - 1.0).abs() < 1e-6, "{k}");
             }
         }
     }

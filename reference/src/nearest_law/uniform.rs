@@ -39,16 +39,8 @@ pub fn uniform_finite(k: u32, n: u64, counted: Counted) -> RelativeMoments {
 
 fn moments(k: u32, counted: Counted, second_factor: f64) -> RelativeMoments {
     let (k, m) = (f64::from(k), counted.of(k));
-    let mean = if k > 1.0 {
-        m / (k - 1.0)
-    } else {
-        f64::INFINITY
-    };
-    let variance = if k > 2.0 {
-        m * m / ((k - 1.0) * (k - 2.0)) * second_factor - mean * mean
-    } else {
-        f64::INFINITY
-    };
+    let mean = if k > 1.0 { m / (k - 1.0) } else { f64::INFINITY };
+    let variance = if k > 2.0 { m * m / ((k - 1.0) * (k - 2.0)) * second_factor - mean * mean } else { f64::INFINITY };
     RelativeMoments { mean, variance }
 }
 
@@ -79,9 +71,8 @@ mod tests {
                 let law = uniform_finite(k as u32, n, counted);
                 let (mut mean, mut square) = (Moments::default(), Moments::default());
                 for _ in 0..8_000 {
-                    let mut d2: Vec<f64> = (0..n)
-                        .map(|_| (random.unit() - 0.5).powi(2) + (random.unit() - 0.5).powi(2))
-                        .collect();
+                    let mut d2: Vec<f64> =
+                        (0..n).map(|_| (random.unit() - 0.5).powi(2) + (random.unit() - 0.5).powi(2)).collect();
                     let (_, &mut rk2, _) = d2.select_nth_unstable_by(k - 1, f64::total_cmp);
                     assert!(rk2 < 0.25, "the disc stays on the square");
                     let x = counted.of(k as u32) / (std::f64::consts::PI * rk2 * n as f64);

@@ -20,9 +20,7 @@ impl Kind {
             Self::Lattice => (-2i8..3).prop_map(f32::from).boxed(),
             Self::Tiny => (-4i8..5).prop_map(|i| f32::from(i) * 1e-30).boxed(),
             Self::Huge => (-4i8..5).prop_map(|i| f32::from(i) * 1e30).boxed(),
-            Self::AnyFinite => any::<f32>()
-                .prop_filter("finite", |x| x.is_finite())
-                .boxed(),
+            Self::AnyFinite => any::<f32>().prop_filter("finite", |x| x.is_finite()).boxed(),
         }
     }
 
@@ -32,13 +30,7 @@ impl Kind {
 }
 
 fn kind() -> impl Strategy<Value = Kind> {
-    let kinds = vec![
-        Kind::Smooth,
-        Kind::Lattice,
-        Kind::Tiny,
-        Kind::Huge,
-        Kind::AnyFinite,
-    ];
+    let kinds = vec![Kind::Smooth, Kind::Lattice, Kind::Tiny, Kind::Huge, Kind::AnyFinite];
     prop::sample::select(kinds)
 }
 
@@ -68,19 +60,16 @@ fn radius() -> impl Strategy<Value = f32> {
 /// Points of one kind and dimension, with queries among them and anywhere.
 fn case() -> impl Strategy<Value = (Vec<[f32; 3]>, Vec<[f32; 3]>)> {
     (kind(), 0usize..4).prop_flat_map(|(kind, axes)| {
-        let points =
-            prop::collection::vec(kind.point(), 0..200).prop_map(move |p| flatten(p, axes));
+        let points = prop::collection::vec(kind.point(), 0..200).prop_map(move |p| flatten(p, axes));
         let queries = prop::collection::vec(kind.point(), 2);
         let elsewhere = Kind::AnyFinite.point();
-        (points, queries, elsewhere, any::<prop::sample::Index>()).prop_map(
-            |(points, mut queries, far, pick)| {
-                queries.push(far);
-                if !points.is_empty() {
-                    queries.push(points[pick.index(points.len())]);
-                }
-                (points, queries)
-            },
-        )
+        (points, queries, elsewhere, any::<prop::sample::Index>()).prop_map(|(points, mut queries, far, pick)| {
+            queries.push(far);
+            if !points.is_empty() {
+                queries.push(points[pick.index(points.len())]);
+            }
+            (points, queries)
+        })
     })
 }
 

@@ -5,19 +5,11 @@ use photonlab_kdtree::{EmptyCost, KdTree, SplitRule, distance_squared};
 /// The rules that every case is put through.
 pub(crate) const RULES: [SplitRule; 5] = [
     SplitRule::Median,
-    SplitRule::SurfaceArea {
-        empty_cost: EmptyCost::Constant(0.0),
-    },
-    SplitRule::SurfaceArea {
-        empty_cost: EmptyCost::Constant(3.0),
-    },
-    SplitRule::SurfaceArea {
-        empty_cost: EmptyCost::NodeAreas(2.0),
-    },
+    SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(0.0) },
+    SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(3.0) },
+    SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(2.0) },
     // Never splits: one leaf of any size.
-    SplitRule::SurfaceArea {
-        empty_cost: EmptyCost::Constant(f64::INFINITY),
-    },
+    SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(f64::INFINITY) },
 ];
 
 /// A found point as original index and the bits of its squared distance.
@@ -25,10 +17,7 @@ pub(crate) type Hit = (usize, u32);
 
 /// All points in the closed ball, by original index.
 pub(crate) fn loop_within(points: &[[f32; 3]], query: [f32; 3], radius: f32) -> Vec<Hit> {
-    let distances = points
-        .iter()
-        .map(|&p| distance_squared(query, p))
-        .enumerate();
+    let distances = points.iter().map(|&p| distance_squared(query, p)).enumerate();
     let inside = distances.filter(|&(_, d)| radius >= 0.0 && d <= radius * radius);
     inside.map(|(i, d)| (i, d.to_bits())).collect()
 }
@@ -52,36 +41,23 @@ pub(crate) fn loop_nearest(
 /// A tree whose payload is the original index.
 pub(crate) fn build(points: &[[f32; 3]], rule: SplitRule, leaf_limit: usize) -> KdTree<usize> {
     let payload = (0..points.len()).collect();
-    KdTree::build_with_leaf_limit(points.to_vec(), payload, rule, leaf_limit)
-        .expect("points are finite")
+    KdTree::build_with_leaf_limit(points.to_vec(), payload, rule, leaf_limit).expect("points are finite")
 }
 
 /// Every index once, and points and payloads where the index says.
 pub(crate) fn assert_is_a_permutation(tree: &KdTree<usize>, points: &[[f32; 3]]) {
     let mut seen = vec![false; points.len()];
-    assert_eq!(
-        (tree.len(), tree.is_empty()),
-        (points.len(), points.is_empty())
-    );
+    assert_eq!((tree.len(), tree.is_empty()), (points.len(), points.is_empty()));
     for i in 0..tree.len() {
         let original = tree.original_index(i);
         assert!(!std::mem::replace(&mut seen[original], true));
-        assert_eq!(
-            tree.points()[i].map(f32::to_bits),
-            points[original].map(f32::to_bits)
-        );
+        assert_eq!(tree.points()[i].map(f32::to_bits), points[original].map(f32::to_bits));
         assert_eq!(tree.payloads()[i], original);
     }
 }
 
 /// Both questions, counted and not, against the loops.
-pub(crate) fn assert_answers(
-    tree: &KdTree<usize>,
-    points: &[[f32; 3]],
-    query: [f32; 3],
-    k: usize,
-    radius: f32,
-) {
+pub(crate) fn assert_answers(tree: &KdTree<usize>, points: &[[f32; 3]], query: [f32; 3], k: usize, radius: f32) {
     let mut order = vec![];
     let mut inside = vec![];
     let visits = tree.within_counted(query, radius, |i, d| {
@@ -91,11 +67,7 @@ pub(crate) fn assert_answers(
     assert!(order.is_sorted_by(|a, b| a < b), "not by rising tree index");
     assert!(visits.points >= inside.len() && visits.nodes <= tree.shape().nodes);
     inside.sort_unstable();
-    assert_eq!(
-        inside,
-        loop_within(points, query, radius),
-        "within {radius:e} of {query:?}"
-    );
+    assert_eq!(inside, loop_within(points, query, radius), "within {radius:e} of {query:?}");
     let mut count = 0;
     tree.within(query, radius, |_, _| count += 1);
     assert_eq!(count, inside.len());
@@ -103,15 +75,10 @@ pub(crate) fn assert_answers(
     for modulus in [1, 3] {
         let accept = |i: usize| i.is_multiple_of(modulus);
         let expected = loop_nearest(points, query, k, radius, accept);
-        let mut found = vec![photonlab_kdtree::Neighbour {
-            index: 0,
-            distance_squared: -1.0,
-        }];
+        let mut found = vec![photonlab_kdtree::Neighbour { index: 0, distance_squared: -1.0 }];
         let visits = tree.nearest_counted(query, k, radius, |&i| accept(i), &mut found);
-        let hits: Vec<Hit> = found
-            .iter()
-            .map(|n| (tree.original_index(n.index), n.distance_squared.to_bits()))
-            .collect();
+        let hits: Vec<Hit> =
+            found.iter().map(|n| (tree.original_index(n.index), n.distance_squared.to_bits())).collect();
         assert_eq!(hits, expected, "{k} nearest to {query:?} within {radius:e}");
         assert!(visits.points >= hits.len());
         let first = found.clone();

@@ -7,22 +7,14 @@ use photonlab_kdtree::KdTree;
 fn points(count: usize) -> Vec<[f32; 3]> {
     let mut state = 12345u64;
     let mut draw = || {
-        state = state
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
+        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
         (state >> 48) as f32 / 65536.0
     };
-    (0..count)
-        .map(|i| [draw(), draw(), if i % 2 == 0 { 0.0 } else { draw() }])
-        .collect()
+    (0..count).map(|i| [draw(), draw(), if i % 2 == 0 { 0.0 } else { draw() }]).collect()
 }
 
 fn with_threads(threads: usize, make: impl FnOnce() -> KdTree<usize> + Send) -> KdTree<usize> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .unwrap()
-        .install(make)
+    rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(make)
 }
 
 #[test]
@@ -31,10 +23,7 @@ fn any_number_of_threads_builds_the_same_tree() {
     for rule in RULES {
         let alone = with_threads(1, || build(&points, rule, 8));
         for threads in [2, 3, 8] {
-            assert!(
-                alone == with_threads(threads, || build(&points, rule, 8)),
-                "{threads} threads, {rule:?}"
-            );
+            assert!(alone == with_threads(threads, || build(&points, rule, 8)), "{threads} threads, {rule:?}");
         }
     }
 }
@@ -45,23 +34,13 @@ fn queries_look_at_few_points() {
     for rule in &RULES[..4] {
         let tree = build(&points, *rule, 16);
         let mut found = vec![];
-        let visits =
-            tree.nearest_counted([0.5, 0.5, 0.0], 100, f32::INFINITY, |_| true, &mut found);
-        assert!(
-            visits.points < 2_500 && visits.nodes < 1_000,
-            "{visits:?}, {rule:?}"
-        );
+        let visits = tree.nearest_counted([0.5, 0.5, 0.0], 100, f32::INFINITY, |_| true, &mut found);
+        assert!(visits.points < 2_500 && visits.nodes < 1_000, "{visits:?}, {rule:?}");
         assert!(visits.leaves <= visits.nodes);
         let visits = tree.within_counted([0.5, 0.5, 0.0], 0.03, |_, _| ());
-        assert!(
-            visits.points < 2_500 && visits.nodes < 1_000,
-            "{visits:?}, {rule:?}"
-        );
+        assert!(visits.points < 2_500 && visits.nodes < 1_000, "{visits:?}, {rule:?}");
         let all = tree.within_counted([0.5; 3], 9.0, |_, _| ());
         let shape = tree.shape();
-        assert_eq!(
-            (all.points, all.nodes, all.leaves),
-            (60_000, shape.nodes, shape.leaves)
-        );
+        assert_eq!((all.points, all.nodes, all.leaves), (60_000, shape.nodes, shape.leaves));
     }
 }

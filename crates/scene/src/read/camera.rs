@@ -27,37 +27,19 @@ pub(super) fn camera(object: &mut Object, film: Film) -> Result<Camera, SceneErr
         return Err(object.element.error(what, "set near_clip < far_clip"));
     }
     let principal_point_offset = [
-        object
-            .float("principal_point_offset_x", Range::COORDINATE)?
-            .unwrap_or(0.0),
-        object
-            .float("principal_point_offset_y", Range::COORDINATE)?
-            .unwrap_or(0.0),
+        object.float("principal_point_offset_x", Range::COORDINATE)?.unwrap_or(0.0),
+        object.float("principal_point_offset_y", Range::COORDINATE)?.unwrap_or(0.0),
     ];
     let tan_half_height = tan_half_width / aspect;
-    Ok(Camera {
-        to_world,
-        tan_half_width,
-        tan_half_height,
-        principal_point_offset,
-        near_clip,
-        far_clip,
-    })
+    Ok(Camera { to_world, tan_half_width, tan_half_height, principal_point_offset, near_clip, far_clip })
 }
 
 fn check_rigid(object: &Object, to_world: &DAffine3) -> Result<(), SceneError> {
     let error = to_world.matrix3.transpose() * to_world.matrix3 - DMat3::IDENTITY;
-    if error
-        .to_cols_array()
-        .into_iter()
-        .all(|entry| entry.abs() <= TOLERANCE)
-    {
+    if error.to_cols_array().into_iter().all(|entry| entry.abs() <= TOLERANCE) {
         return Ok(());
     }
-    Err(object.element.error(
-        "to_world scales or shears the camera",
-        "use lookat, rotate and translate only",
-    ))
+    Err(object.element.error("to_world scales or shears the camera", "use lookat, rotate and translate only"))
 }
 
 /// Half the field of view along the width, as a tangent.
@@ -67,16 +49,8 @@ fn field_of_view(object: &mut Object, aspect: f64) -> Result<f64, SceneError> {
     let focal_length = object.string("focal_length")?;
     let fail = |fault| object.element.fault(fault);
     match (fov, focal_length) {
-        (Some(_), Some(_)) => Err(fail(Fault::new(
-            "both fov and focal_length are given",
-            "keep one of them",
-        ))),
-        (Some(fov), None) => along_width(
-            half_tangent(fov).map_err(fail)?,
-            axis.unwrap_or("x"),
-            aspect,
-        )
-        .map_err(fail),
+        (Some(_), Some(_)) => Err(fail(Fault::new("both fov and focal_length are given", "keep one of them"))),
+        (Some(fov), None) => along_width(half_tangent(fov).map_err(fail)?, axis.unwrap_or("x"), aspect).map_err(fail),
         (None, _) if axis.is_some() => Err(fail(Fault::new(
             "fov_axis without fov",
             "add fov, or remove fov_axis: focal_length is on the diagonal",
@@ -92,10 +66,7 @@ fn half_tangent(fov: f64) -> Result<f64, Fault> {
     if fov > 0.0 && fov < 180.0 {
         return Ok((0.5 * fov).to_radians().tan());
     }
-    Err(Fault::new(
-        format!("fov {fov} is out of range"),
-        "give an angle between 0 and 180 degrees",
-    ))
+    Err(Fault::new(format!("fov {fov} is out of range"), "give an angle between 0 and 180 degrees"))
 }
 
 fn along_width(tangent: f64, axis: &str, aspect: f64) -> Result<f64, Fault> {
@@ -114,10 +85,7 @@ fn along_width(tangent: f64, axis: &str, aspect: f64) -> Result<f64, Fault> {
     if (1e-12..=1e12).contains(&width) {
         return Ok(width);
     }
-    Err(Fault::new(
-        "the field of view is too narrow or too wide",
-        "give another fov or focal_length",
-    ))
+    Err(Fault::new("the field of view is too narrow or too wide", "give another fov or focal_length"))
 }
 
 /// Millimetres of a focal length such as `50mm`.
@@ -127,13 +95,7 @@ fn focal_millimetres(text: &str) -> Result<f64, Fault> {
     let mend = "write it like 50mm";
     match float(number) {
         Ok(millimetres) if millimetres > 0.0 => Ok(millimetres),
-        Ok(_) => Err(Fault::new(
-            format!("focal_length {} is not positive", quote(text)),
-            mend,
-        )),
-        Err(_) => Err(Fault::new(
-            format!("focal_length {} is not a length", quote(text)),
-            mend,
-        )),
+        Ok(_) => Err(Fault::new(format!("focal_length {} is not positive", quote(text)), mend)),
+        Err(_) => Err(Fault::new(format!("focal_length {} is not a length", quote(text)), mend)),
     }
 }

@@ -9,11 +9,7 @@ use super::number::{Range, list};
 /// The colour that an `rgb`, `spectrum` or `float` states, each channel in `range`.
 pub(super) fn colour(element: &Element, range: Range) -> Result<Rgb, Fault> {
     let text = uniform(element)?;
-    let counts: &[usize] = if element.tag.name == "rgb" {
-        &[1, 3]
-    } else {
-        &[1]
-    };
+    let counts: &[usize] = if element.tag.name == "rgb" { &[1, 3] } else { &[1] };
     let numbers = list(text, counts)?;
     for &number in &numbers {
         range.check(number)?;
@@ -27,19 +23,14 @@ pub(super) fn colour(element: &Element, range: Range) -> Result<Rgb, Fault> {
 /// The text of its numbers, if it is no spectrum that varies.
 fn uniform(element: &Element) -> Result<&str, Fault> {
     let varies = |what: &str| {
-        Fault::new(
-            format!("is {what}, known but not built yet"),
-            "give rgb, or a spectrum with one number for now",
-        )
+        Fault::new(format!("is {what}, known but not built yet"), "give rgb, or a spectrum with one number for now")
     };
     for given in ["type", "filename"] {
         if element.attribute(given).is_some() {
             return Err(varies(&format!("a spectrum with {given}")));
         }
     }
-    let text = element
-        .attribute("value")
-        .ok_or_else(|| Fault::new("has no value", "add value=\"...\""))?;
+    let text = element.attribute("value").ok_or_else(|| Fault::new("has no value", "add value=\"...\""))?;
     if element.tag.name == "spectrum" && text.contains(':') {
         return Err(varies("a list of wavelengths"));
     }

@@ -26,18 +26,10 @@ impl Defaults {
         let mut map = HashMap::new();
         for (name, value) in defines {
             if map.insert(name.clone(), value.clone()).is_some() {
-                return Err(Fault::new(
-                    format!("-D {} is given twice", quote(name)),
-                    "give it once",
-                ));
+                return Err(Fault::new(format!("-D {} is given twice", quote(name)), "give it once"));
             }
         }
-        Ok(Defaults {
-            defines: map,
-            values: HashMap::new(),
-            substitutions: 0,
-            written: 0,
-        })
+        Ok(Defaults { defines: map, values: HashMap::new(), substitutions: 0, written: 0 })
     }
 
     /// Meets `<default name value>`: the caller's value wins, then the first of the file, as in Mitsuba. Returns the
@@ -50,10 +42,7 @@ impl Defaults {
             ));
         }
         let kept = self.defines.get(name).map_or(value, String::as_str);
-        Ok(self
-            .values
-            .entry(name.to_owned())
-            .or_insert_with(|| kept.to_owned()))
+        Ok(self.values.entry(name.to_owned()).or_insert_with(|| kept.to_owned()))
     }
 
     /// True if the caller gave this value.
@@ -70,10 +59,7 @@ impl Defaults {
             self.substitutions += 1;
             self.written += value.len() + piece.len();
             if self.substitutions > COUNT_LIMIT || self.written > LENGTH_LIMIT {
-                return Err(Fault::new(
-                    "too many or too long substitutions",
-                    "use fewer or shorter defaults",
-                ));
+                return Err(Fault::new("too many or too long substitutions", "use fewer or shorter defaults"));
             }
             result.push_str(value);
             result.push_str(&piece[name.len()..]);
@@ -83,12 +69,8 @@ impl Defaults {
 
     /// Checks, after the whole scene, that every define of the caller had a default to replace.
     pub(super) fn check_used(&self) -> Result<(), Fault> {
-        let mut unused: Vec<&str> = self
-            .defines
-            .keys()
-            .filter(|name| !self.values.contains_key(*name))
-            .map(String::as_str)
-            .collect();
+        let mut unused: Vec<&str> =
+            self.defines.keys().filter(|name| !self.values.contains_key(*name)).map(String::as_str).collect();
         unused.sort_unstable();
         let Some(name) = unused.first() else {
             return Ok(());
@@ -103,14 +85,9 @@ impl Defaults {
 
 /// The longest known name that `text` starts with, and its value. A letter or digit after it means that another name
 /// was meant (Mitsuba would paste the value and the rest together).
-fn leading_name<'v>(
-    values: &'v HashMap<String, String>,
-    text: &str,
-) -> Result<(&'v str, &'v str), Fault> {
+fn leading_name<'v>(values: &'v HashMap<String, String>, text: &str) -> Result<(&'v str, &'v str), Fault> {
     let longest = (1..=NAME_LIMIT.min(text.len())).rev();
-    let found = longest
-        .filter_map(|end| values.get_key_value(text.get(..end)?))
-        .next();
+    let found = longest.filter_map(|end| values.get_key_value(text.get(..end)?)).next();
     let is_word = |c: char| c.is_alphanumeric() || c == '_';
     if let Some((name, value)) = found
         && !text[name.len()..].starts_with(is_word)
@@ -120,10 +97,7 @@ fn leading_name<'v>(
     let wanted = text.split(|c| !is_word(c)).next().unwrap_or_default();
     let known = nearest_first(wanted, values.keys().map(String::as_str));
     Err(Fault::new(
-        format!(
-            "{} has no default before this line",
-            quote(&format!("${wanted}"))
-        ),
+        format!("{} has no default before this line", quote(&format!("${wanted}"))),
         format!("add a <default> above it; defined so far: {known}"),
     ))
 }

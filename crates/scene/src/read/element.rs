@@ -15,10 +15,7 @@ pub(super) struct Element {
 impl Element {
     /// The attribute's value, if it is there.
     pub(super) fn attribute(&self, name: &str) -> Option<&str> {
-        self.attributes
-            .iter()
-            .find(|(known, _)| *known == name)
-            .map(|(_, value)| value.as_str())
+        self.attributes.iter().find(|(known, _)| *known == name).map(|(_, value)| value.as_str())
     }
 
     /// The value of an attribute that the tag requires; empty if the tag does not.

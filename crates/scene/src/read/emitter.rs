@@ -13,10 +13,7 @@ use super::scene::Builder;
 use super::transform::unit;
 
 /// Reads a lamp that stands by itself and adds it to the scene.
-pub(super) fn emitter<'e>(
-    element: &'e Element,
-    builder: &mut Builder<'e>,
-) -> Result<(), SceneError> {
+pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
     let object = Object::open(element)?;
     plugins::check(&object)?;
     let id = builder.id(element, "emitter", builder.scene.emitters.len())?;
@@ -24,10 +21,7 @@ pub(super) fn emitter<'e>(
         "point" => point(object, id, builder)?,
         "directional" => directional(object, id, builder)?,
         _ => {
-            return Err(element.error(
-                "an area lamp outside a shape",
-                "put it into the shape that shines",
-            ));
+            return Err(element.error("an area lamp outside a shape", "put it into the shape that shines"));
         }
     };
     builder.scene.emitters.push(emitter);
@@ -51,49 +45,26 @@ fn point(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitte
     let given = object.vector("position", Range::COORDINATE)?;
     let to_world = object.transform()?;
     check_one_of(&object, given, to_world, "position")?;
-    let position = given
-        .or(to_world.map(|transform| transform.translation))
-        .unwrap_or(DVec3::ZERO);
+    let position = given.or(to_world.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
     let intensity = emission(&mut object, "intensity", builder)?;
     object.close(&[])?;
-    Ok(Emitter::Point {
-        id,
-        position,
-        intensity,
-    })
+    Ok(Emitter::Point { id, position, intensity })
 }
 
-fn directional(
-    mut object: Object,
-    id: String,
-    builder: &mut Builder,
-) -> Result<Emitter, SceneError> {
+fn directional(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
     let given = object.vector("direction", Range::ANY)?;
     let to_world = object.transform()?;
     check_one_of(&object, given, to_world, "direction")?;
-    let along = given
-        .or(to_world.map(|transform| transform.matrix3.z_axis))
-        .unwrap_or(DVec3::Z);
-    let direction = unit(along).ok_or_else(|| {
-        object
-            .element
-            .error("direction is zero", "give a direction such as 0 0 -1")
-    })?;
+    let along = given.or(to_world.map(|transform| transform.matrix3.z_axis)).unwrap_or(DVec3::Z);
+    let direction =
+        unit(along).ok_or_else(|| object.element.error("direction is zero", "give a direction such as 0 0 -1"))?;
     let irradiance = emission(&mut object, "irradiance", builder)?;
     object.close(&[])?;
-    Ok(Emitter::Directional {
-        id,
-        direction,
-        irradiance,
-    })
+    Ok(Emitter::Directional { id, direction, irradiance })
 }
 
 /// The emitted quantity, 1 if the file does not say, as in Mitsuba.
-fn emission(
-    object: &mut Object,
-    name: &'static str,
-    builder: &mut Builder,
-) -> Result<Rgb, SceneError> {
+fn emission(object: &mut Object, name: &'static str, builder: &mut Builder) -> Result<Rgb, SceneError> {
     if object.float("sampling_weight", Range::ANY)?.is_some() {
         builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
@@ -107,10 +78,7 @@ fn check_one_of(
     name: &str,
 ) -> Result<(), SceneError> {
     if given.is_some() && to_world.is_some() {
-        return Err(object.element.error(
-            format!("both {name} and to_world are given"),
-            "keep one of them",
-        ));
+        return Err(object.element.error(format!("both {name} and to_world are given"), "keep one of them"));
     }
     Ok(())
 }

@@ -34,10 +34,7 @@ pub(super) struct Fault {
 
 impl Fault {
     pub(super) fn new(what: impl Into<String>, mend: impl Into<String>) -> Self {
-        Fault {
-            what: what.into(),
-            mend: mend.into(),
-        }
+        Fault { what: what.into(), mend: mend.into() }
     }
 }
 

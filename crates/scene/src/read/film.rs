@@ -11,20 +11,14 @@ use super::plugins;
 use super::scene::Builder;
 
 /// Mitsuba's size of a film that does not say.
-pub(super) const DEFAULT: Film = Film {
-    width: 768,
-    height: 576,
-};
+pub(super) const DEFAULT: Film = Film { width: 768, height: 576 };
 /// Most cells along one side.
 const SIDE_LIMIT: u32 = 65536;
 /// Most cells.
 const CELL_LIMIT: u64 = 1 << 28;
 
 /// Reads a film.
-pub(super) fn film<'e>(
-    element: &'e Element,
-    builder: &mut Builder<'e>,
-) -> Result<Film, SceneError> {
+pub(super) fn film<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<Film, SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
     let film = Film {
@@ -39,12 +33,7 @@ pub(super) fn film<'e>(
     if let Some(filter) = object.single(&["rfilter"])? {
         rfilter(filter, builder)?;
     }
-    object.close(&[
-        "crop_width",
-        "crop_height",
-        "crop_offset_x",
-        "crop_offset_y",
-    ])?;
+    object.close(&["crop_width", "crop_height", "crop_offset_x", "crop_offset_y"])?;
     Ok(film)
 }
 
@@ -54,37 +43,24 @@ fn side(object: &mut Object, name: &'static str) -> Result<Option<u32>, SceneErr
     };
     match u32::try_from(number) {
         Ok(cells @ 1..=SIDE_LIMIT) => Ok(Some(cells)),
-        _ => Err(object.element.error(
-            format!("{name} {number} is out of range"),
-            format!("use 1 to {SIDE_LIMIT}"),
-        )),
+        _ => Err(object.element.error(format!("{name} {number} is out of range"), format!("use 1 to {SIDE_LIMIT}"))),
     }
 }
 
 /// What the file asks of Mitsuba's output; images here are always linear 32-bit float OpenEXR.
 fn output(object: &mut Object, builder: &mut Builder) -> Result<(), SceneError> {
     let formats = ["luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza"];
-    let pixel = object
-        .choice("pixel_format", &formats)?
-        .is_some_and(|format| format != "rgb");
+    let pixel = object.choice("pixel_format", &formats)?.is_some_and(|format| format != "rgb");
     let components = ["float16", "float32", "uint32"];
-    let component = object
-        .choice("component_format", &components)?
-        .is_some_and(|format| format != "float32");
+    let component = object.choice("component_format", &components)?.is_some_and(|format| format != "float32");
     let files = ["openexr", "exr", "rgbe", "pfm"];
-    let file = object
-        .choice("file_format", &files)?
-        .is_some_and(|format| !format.ends_with("exr"));
+    let file = object.choice("file_format", &files)?.is_some_and(|format| !format.ends_with("exr"));
     if pixel || component || file {
-        builder.note(
-            "the film's output format is superseded: images are R G B, 32-bit float, OpenEXR",
-        );
+        builder.note("the film's output format is superseded: images are R G B, 32-bit float, OpenEXR");
     }
     for name in ["sample_border", "compensate"] {
         if object.boolean(name)? == Some(true) {
-            builder.note(&format!(
-                "the film's {name} has no effect with the box filter used here"
-            ));
+            builder.note(&format!("the film's {name} has no effect with the box filter used here"));
         }
     }
     Ok(())
@@ -95,16 +71,11 @@ fn rfilter(element: &Element, builder: &mut Builder) -> Result<(), SceneError> {
     plugins::check(&filter)?;
     let mut unlike_box = filter.plugin != "box";
     for name in ["radius", "stddev", "B", "C"] {
-        unlike_box |= filter
-            .float(name, Range::ANY)?
-            .is_some_and(|number| number != 0.5);
+        unlike_box |= filter.float(name, Range::ANY)?.is_some_and(|number| number != 0.5);
     }
     unlike_box |= filter.integer("lobes")?.is_some();
     if unlike_box {
-        builder.note(&format!(
-            "reconstruction filter {} is superseded by the box",
-            quote(filter.plugin)
-        ));
+        builder.note(&format!("reconstruction filter {} is superseded by the box", quote(filter.plugin)));
     }
     filter.close(&[])
 }

@@ -44,13 +44,9 @@ pub(super) fn index(element: &Element) -> Result<f64, SceneError> {
         return number.map_err(|fault| element.value_fault(fault));
     }
     let wanted = value.to_ascii_lowercase();
-    MATERIALS
-        .iter()
-        .find(|(name, _)| *name == wanted)
-        .map(|(_, index)| *index)
-        .ok_or_else(|| {
-            let known = nearest_first(value, MATERIALS.iter().map(|(name, _)| *name));
-            let what = format!("{} {} is no known material", element.label(), quote(value));
-            element.error(what, format!("give a number as <float>, or one of {known}"))
-        })
+    MATERIALS.iter().find(|(name, _)| *name == wanted).map(|(_, index)| *index).ok_or_else(|| {
+        let known = nearest_first(value, MATERIALS.iter().map(|(name, _)| *name));
+        let what = format!("{} {} is no known material", element.label(), quote(value));
+        element.error(what, format!("give a number as <float>, or one of {known}"))
+    })
 }

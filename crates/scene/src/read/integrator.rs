@@ -8,10 +8,7 @@ use super::plugins;
 use super::scene::Builder;
 
 /// Reads the integrator: `max_depth` goes into the scene, the rest into a note.
-pub(super) fn integrator<'e>(
-    element: &'e Element,
-    builder: &mut Builder<'e>,
-) -> Result<(), SceneError> {
+pub(super) fn integrator<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
     if let Some(first) = builder.integrator.replace(element) {
         let what = format!("a second integrator, the first is at {}", first.place);
         return Err(element.error(what, "keep one of them"));
@@ -19,48 +16,26 @@ pub(super) fn integrator<'e>(
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
     let depth = object.integer("max_depth")?;
-    builder.scene.max_depth = depth
-        .map(|depth| max_depth(element, depth))
-        .transpose()?
-        .flatten();
+    builder.scene.max_depth = depth.map(|depth| max_depth(element, depth)).transpose()?.flatten();
 
     let mut unused = Vec::new();
-    for name in [
-        "rr_depth",
-        "samples_per_pass",
-        "shading_samples",
-        "emitter_samples",
-        "bsdf_samples",
-    ] {
+    for name in ["rr_depth", "samples_per_pass", "shading_samples", "emitter_samples", "bsdf_samples"] {
         if object.integer(name)?.is_some() {
             unused.push(name);
         }
     }
     match object.boolean("hide_emitters")? {
         Some(true) => {
-            return Err(element.error(
-                "hide_emitters is known but not built yet",
-                "set it to false",
-            ));
+            return Err(element.error("hide_emitters is known but not built yet", "set it to false"));
         }
         Some(false) => unused.push("hide_emitters"),
         None => {}
     }
     let plugin = object.plugin;
     object.close(&["integrator", "samples", "block_size", "timeout"])?;
-    let obeyed = if depth.is_some() {
-        "; its max_depth is obeyed"
-    } else {
-        ""
-    };
-    let without = if unused.is_empty() {
-        String::new()
-    } else {
-        format!("; not used: {}", unused.join(", "))
-    };
-    builder.note(&format!(
-        "integrator {plugin} is superseded by --method{obeyed}{without}"
-    ));
+    let obeyed = if depth.is_some() { "; its max_depth is obeyed" } else { "" };
+    let without = if unused.is_empty() { String::new() } else { format!("; not used: {}", unused.join(", ")) };
+    builder.note(&format!("integrator {plugin} is superseded by --method{obeyed}{without}"));
     Ok(())
 }
 

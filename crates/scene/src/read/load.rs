@@ -52,31 +52,17 @@ pub(super) struct Loader {
 impl Loader {
     /// For the scene called `name` in errors, with the caller's defines.
     pub(super) fn new(name: &str, defines: &[(String, String)]) -> Result<Self, SceneError> {
-        let start = Place {
-            file: Rc::from(name),
-            line: 1,
-        };
+        let start = Place { file: Rc::from(name), line: 1 };
         let defaults = Defaults::new(defines).map_err(|fault| start.error("default", fault))?;
         let (ids, notes, open) = (HashMap::new(), Vec::new(), Vec::new());
-        Ok(Loader {
-            start,
-            defaults,
-            ids,
-            notes,
-            open,
-            bytes_left: BYTE_LIMIT,
-            markup: 0,
-            included: 0,
-        })
+        Ok(Loader { start, defaults, ids, notes, open, bytes_left: BYTE_LIMIT, markup: 0, included: 0 })
     }
 
     /// Loads the scene at `path`.
     pub(super) fn load_file(mut self, path: &Path) -> Result<Loaded, SceneError> {
         let mut roots = Vec::new();
         let start = self.start.clone();
-        self.file(path, &start, "scene", &mut |loader, text| {
-            loader.document(text, &start.file, None, 0, &mut roots)
-        })?;
+        self.file(path, &start, "scene", &mut |loader, text| loader.document(text, &start.file, None, 0, &mut roots))?;
         self.finish(roots)
     }
 
@@ -98,29 +84,18 @@ impl Loader {
     ) -> Result<(), SceneError> {
         let refuse = |what: &str, mend: &str| Err(place.error("include", Fault::new(what, mend)));
         let Some(open) = self.open.last() else {
-            return refuse(
-                "a scene given as text cannot include files",
-                "put the file's contents here",
-            );
+            return refuse("a scene given as text cannot include files", "put the file's contents here");
         };
         let path = open.path.with_file_name("").join(filename);
         if self.open.len() > INCLUDE_LIMIT {
-            return refuse(
-                &format!("more than {INCLUDE_LIMIT} files include each other"),
-                "include less deeply",
-            );
+            return refuse(&format!("more than {INCLUDE_LIMIT} files include each other"), "include less deeply");
         }
         self.included += 1;
         if self.included > INCLUDE_COUNT_LIMIT {
-            return refuse(
-                &format!("more than {INCLUDE_COUNT_LIMIT} includes in one scene"),
-                "use fewer",
-            );
+            return refuse(&format!("more than {INCLUDE_COUNT_LIMIT} includes in one scene"), "use fewer");
         }
         let name: Rc<str> = Rc::from(path.display().to_string());
-        self.file(&path, place, "include", &mut |loader, text| {
-            loader.document(text, &name, Some(parent), depth, out)
-        })
+        self.file(&path, place, "include", &mut |loader, text| loader.document(text, &name, Some(parent), depth, out))
     }
 
     /// Reads one file and hands its text to `then`, with the file marked as open meanwhile.
@@ -132,27 +107,15 @@ impl Loader {
         then: &mut dyn FnMut(&mut Loader, &str) -> Result<(), SceneError>,
     ) -> Result<(), SceneError> {
         let name = format!("{:?}", path.display().to_string());
-        let about = |fault: Fault| {
-            place.error(
-                element,
-                Fault::new(format!("{name} {}", fault.what), fault.mend),
-            )
-        };
+        let about = |fault: Fault| place.error(element, Fault::new(format!("{name} {}", fault.what), fault.mend));
         let text = read_text(path, self.bytes_left).map_err(|(line, fault)| match line {
-            Some(line) => Place {
-                file: Rc::from(path.display().to_string()),
-                line,
-            }
-            .error(element, fault),
+            Some(line) => Place { file: Rc::from(path.display().to_string()), line }.error(element, fault),
             None => about(fault),
         })?;
         self.bytes_left -= text.len() as u64;
         let identity = path.canonicalize().unwrap_or_else(|_| path.to_owned());
         if self.open.iter().any(|open| open.identity == identity) {
-            return Err(about(Fault::new(
-                "includes itself, directly or through others",
-                "break the circle",
-            )));
+            return Err(about(Fault::new("includes itself, directly or through others", "break the circle")));
         }
         let path = path.to_owned();
         self.open.push(OpenFile { path, identity });
@@ -171,24 +134,14 @@ impl Loader {
         out: &mut Vec<Element>,
     ) -> Result<(), SceneError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let at = |line: u32, fault: Fault| {
-            Place {
-                file: file.clone(),
-                line,
-            }
-            .error("scene", fault)
-        };
-        let refused =
-            |Refusal { offset, fault }| at(Lines::new(text.as_bytes()).line_at(offset), fault);
+        let at = |line: u32, fault: Fault| Place { file: file.clone(), line }.error("scene", fault);
+        let refused = |Refusal { offset, fault }| at(Lines::new(text.as_bytes()).line_at(offset), fault);
         self.markup += scan(text).map_err(refused)?;
         check_count(self.markup).map_err(|fault| at(1, fault))?;
         if text.trim().is_empty() {
             return Err(at(1, nothing()));
         }
-        let options = ParsingOptions {
-            allow_dtd: false,
-            ..ParsingOptions::default()
-        };
+        let options = ParsingOptions { allow_dtd: false, ..ParsingOptions::default() };
         let document = Document::parse_with_options(text, options).map_err(|error| {
             let (line, fault) = syntax(&error, text);
             at(line, fault)
@@ -198,16 +151,8 @@ impl Loader {
 
     /// The checks that need the whole scene.
     fn finish(self, mut roots: Vec<Element>) -> Result<Loaded, SceneError> {
-        let root = roots
-            .pop()
-            .ok_or_else(|| self.start.error("scene", nothing()))?;
-        self.defaults
-            .check_used()
-            .map_err(|fault| self.start.error("default", fault))?;
-        Ok(Loaded {
-            root,
-            ids: self.ids,
-            notes: self.notes,
-        })
+        let root = roots.pop().ok_or_else(|| self.start.error("scene", nothing()))?;
+        self.defaults.check_used().map_err(|fault| self.start.error("default", fault))?;
+        Ok(Loaded { root, ids: self.ids, notes: self.notes })
     }
 }

@@ -44,10 +44,6 @@ pub fn read_scene(path: &Path, defines: &[(String, String)]) -> Result<Scene, Sc
 }
 
 /// Reads a scene from `text`, called `name` in errors; it can include no files.
-pub fn read_scene_str(
-    text: &str,
-    name: &str,
-    defines: &[(String, String)],
-) -> Result<Scene, SceneError> {
+pub fn read_scene_str(text: &str, name: &str, defines: &[(String, String)]) -> Result<Scene, SceneError> {
     scene::build(Loader::new(name, defines)?.load_text(text, name)?)
 }

@@ -15,25 +15,14 @@ pub(super) fn quote(text: &str) -> String {
 
 /// The names, those most like `wanted` first, separated by commas; `(none)` if there are none.
 pub(super) fn nearest_first<'n>(wanted: &str, names: impl IntoIterator<Item = &'n str>) -> String {
-    let mut ranked: Vec<(usize, &str)> = names
-        .into_iter()
-        .map(|name| (distance(wanted, name), name))
-        .collect();
+    let mut ranked: Vec<(usize, &str)> = names.into_iter().map(|name| (distance(wanted, name), name)).collect();
     ranked.sort();
     ranked.dedup();
     if ranked.is_empty() {
         return "(none)".to_owned();
     }
-    let more = if ranked.len() > LIST_LIMIT {
-        ", ..."
-    } else {
-        ""
-    };
-    let shown: Vec<String> = ranked
-        .iter()
-        .take(LIST_LIMIT)
-        .map(|(_, name)| shortened(name))
-        .collect();
+    let more = if ranked.len() > LIST_LIMIT { ", ..." } else { "" };
+    let shown: Vec<String> = ranked.iter().take(LIST_LIMIT).map(|(_, name)| shortened(name)).collect();
     shown.join(", ") + more
 }
 
@@ -44,12 +33,7 @@ fn shortened(name: &str) -> String {
 
 /// Levenshtein distance over the first characters of both, small and capital letters alike.
 fn distance(a: &str, b: &str) -> usize {
-    let fold = |text: &str| {
-        text.chars()
-            .take(QUOTE_LIMIT)
-            .map(|c| c.to_ascii_lowercase())
-            .collect::<Vec<char>>()
-    };
+    let fold = |text: &str| text.chars().take(QUOTE_LIMIT).map(|c| c.to_ascii_lowercase()).collect::<Vec<char>>();
     let (a, b) = (fold(a), fold(b));
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, from) in a.iter().enumerate() {
@@ -77,10 +61,7 @@ mod tests {
 
     #[test]
     fn the_likeliest_name_comes_first() {
-        assert_eq!(
-            nearest_first("raduis", ["center", "to_world", "radius"]),
-            "radius, center, to_world"
-        );
+        assert_eq!(nearest_first("raduis", ["center", "to_world", "radius"]), "radius, center, to_world");
         assert_eq!(nearest_first("x", []), "(none)");
     }
 

@@ -36,20 +36,11 @@ impl<'e> Object<'e> {
             }
         }
         let unread = element.children.iter().collect();
-        Ok(Object {
-            element,
-            plugin: element.required("type"),
-            unread,
-            accepted: Vec::new(),
-        })
+        Ok(Object { element, plugin: element.required("type"), unread, accepted: Vec::new() })
     }
 
     /// The property of this name if it is there; its element must be one of `tags`.
-    pub(super) fn take(
-        &mut self,
-        name: &'static str,
-        tags: &[&str],
-    ) -> Result<Option<&'e Element>, SceneError> {
+    pub(super) fn take(&mut self, name: &'static str, tags: &[&str]) -> Result<Option<&'e Element>, SceneError> {
         self.accepted.push(name);
         let is_it = |child: &&Element| child.attribute("name") == Some(name);
         let Some(found) = self.unread.iter().position(is_it) else {
@@ -60,10 +51,7 @@ impl<'e> Object<'e> {
             return Ok(Some(child));
         }
         let wanted = tags.join(" or ");
-        Err(child.error(
-            format!("{name} of {} is no {}", self.plugin, child.tag.name),
-            format!("make it {wanted}"),
-        ))
+        Err(child.error(format!("{name} of {} is no {}", self.plugin, child.tag.name), format!("make it {wanted}")))
     }
 
     /// A value of this name, parsed from its element.
@@ -77,14 +65,9 @@ impl<'e> Object<'e> {
     }
 
     /// A number; `integer` serves too, as in Mitsuba.
-    pub(super) fn float(
-        &mut self,
-        name: &'static str,
-        range: Range,
-    ) -> Result<Option<f64>, SceneError> {
+    pub(super) fn float(&mut self, name: &'static str, range: Range) -> Result<Option<f64>, SceneError> {
         self.value(name, &["float", "integer"], |child| {
-            let number =
-                number::float(child.required("value")).and_then(|number| range.check(number));
+            let number = number::float(child.required("value")).and_then(|number| range.check(number));
             number.map_err(|fault| child.value_fault(fault))
         })
     }
@@ -105,17 +88,11 @@ impl<'e> Object<'e> {
 
     /// A word.
     pub(super) fn string(&mut self, name: &'static str) -> Result<Option<&'e str>, SceneError> {
-        Ok(self
-            .take(name, &["string"])?
-            .map(|child| child.required("value")))
+        Ok(self.take(name, &["string"])?.map(|child| child.required("value")))
     }
 
     /// A word out of `choices`.
-    pub(super) fn choice(
-        &mut self,
-        name: &'static str,
-        choices: &[&str],
-    ) -> Result<Option<&'e str>, SceneError> {
+    pub(super) fn choice(&mut self, name: &'static str, choices: &[&str]) -> Result<Option<&'e str>, SceneError> {
         let Some(child) = self.take(name, &["string"])? else {
             return Ok(None);
         };
@@ -124,39 +101,22 @@ impl<'e> Object<'e> {
             return Ok(Some(value));
         }
         let known = nearest_first(value, choices.iter().copied());
-        Err(child.error(
-            format!("{} is no {name}", quote(value)),
-            format!("use one of {known}"),
-        ))
+        Err(child.error(format!("{} is no {name}", quote(value)), format!("use one of {known}")))
     }
 
     /// A point or vector, three numbers each in `range`.
-    pub(super) fn vector(
-        &mut self,
-        name: &'static str,
-        range: Range,
-    ) -> Result<Option<DVec3>, SceneError> {
+    pub(super) fn vector(&mut self, name: &'static str, range: Range) -> Result<Option<DVec3>, SceneError> {
         self.value(name, &["point", "vector"], |child| {
             let vector = three(child, None).and_then(|vector| {
-                vector
-                    .to_array()
-                    .into_iter()
-                    .try_for_each(|number| range.check(number).map(drop))
-                    .map(|()| vector)
+                vector.to_array().into_iter().try_for_each(|number| range.check(number).map(drop)).map(|()| vector)
             });
             vector.map_err(|fault| child.value_fault(fault))
         })
     }
 
     /// A colour, each channel in `range`.
-    pub(super) fn colour(
-        &mut self,
-        name: &'static str,
-        range: Range,
-    ) -> Result<Option<Rgb>, SceneError> {
-        self.value(name, &["rgb", "spectrum", "float"], |child| {
-            colour(child, range).map_err(|f| child.value_fault(f))
-        })
+    pub(super) fn colour(&mut self, name: &'static str, range: Range) -> Result<Option<Rgb>, SceneError> {
+        self.value(name, &["rgb", "spectrum", "float"], |child| colour(child, range).map_err(|f| child.value_fault(f)))
     }
 
     /// The transform `to_world`.
@@ -167,17 +127,12 @@ impl<'e> Object<'e> {
     /// Child objects whose tag is one of `tags`, in the order of the file.
     pub(super) fn objects(&mut self, tags: &[&'static str]) -> Vec<&'e Element> {
         self.accepted.extend(tags);
-        let taken = self
-            .unread
-            .extract_if(.., |child| tags.contains(&child.tag.name));
+        let taken = self.unread.extract_if(.., |child| tags.contains(&child.tag.name));
         taken.collect()
     }
 
     /// The only child object of this tag, if there is one.
-    pub(super) fn single(
-        &mut self,
-        tags: &[&'static str],
-    ) -> Result<Option<&'e Element>, SceneError> {
+    pub(super) fn single(&mut self, tags: &[&'static str]) -> Result<Option<&'e Element>, SceneError> {
         let found = self.objects(tags);
         match found.get(1) {
             Some(second) => {
@@ -194,26 +149,12 @@ impl<'e> Object<'e> {
             return Ok(());
         };
         let label = child.label();
-        let plugin = if self.plugin.is_empty() {
-            self.element.tag.name
-        } else {
-            self.plugin
-        };
+        let plugin = if self.plugin.is_empty() { self.element.tag.name } else { self.plugin };
         if later.contains(&label) {
-            return Err(child.error(
-                format!("{label} of {plugin} is known but not built yet"),
-                "take it out for now",
-            ));
+            return Err(child.error(format!("{label} of {plugin} is known but not built yet"), "take it out for now"));
         }
-        let kind = if child.tag.kind == Kind::Object {
-            "child"
-        } else {
-            "parameter"
-        };
+        let kind = if child.tag.kind == Kind::Object { "child" } else { "parameter" };
         let known = nearest_first(label, self.accepted.iter().copied());
-        Err(child.error(
-            format!("unknown {kind} {} of {plugin}", quote(label)),
-            format!("it takes {known}"),
-        ))
+        Err(child.error(format!("unknown {kind} {} of {plugin}", quote(label)), format!("it takes {known}")))
     }
 }

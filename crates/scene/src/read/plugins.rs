@@ -12,11 +12,7 @@ struct Plugins {
     foreign: &'static [&'static str],
 }
 
-const NONE: Plugins = Plugins {
-    built: &[],
-    later: &[],
-    foreign: &[],
-};
+const NONE: Plugins = Plugins { built: &[], later: &[], foreign: &[] };
 
 const SHAPES: Plugins = Plugins {
     built: &["rectangle", "sphere", "cube"],
@@ -37,14 +33,7 @@ const SHAPES: Plugins = Plugins {
 
 const BSDFS: Plugins = Plugins {
     built: &["diffuse", "dielectric", "conductor", "twosided"],
-    later: &[
-        "thindielectric",
-        "roughconductor",
-        "roughdielectric",
-        "plastic",
-        "null",
-        "mask",
-    ],
+    later: &["thindielectric", "roughconductor", "roughdielectric", "plastic", "null", "mask"],
     foreign: &[
         "blendbsdf",
         "bumpmap",
@@ -65,13 +54,7 @@ const BSDFS: Plugins = Plugins {
 const EMITTERS: Plugins = Plugins {
     built: &["area", "point", "directional"],
     later: &["spot", "constant", "envmap", "ies", "sky"],
-    foreign: &[
-        "directionalarea",
-        "projector",
-        "sunsky",
-        "timed_sunsky",
-        "volumelight",
-    ],
+    foreign: &["directionalarea", "projector", "sunsky", "timed_sunsky", "volumelight"],
 };
 
 const SENSORS: Plugins = Plugins {
@@ -80,33 +63,13 @@ const SENSORS: Plugins = Plugins {
     foreign: &["batch", "orthographic"],
 };
 
-const FILMS: Plugins = Plugins {
-    built: &["hdrfilm"],
-    later: &[],
-    foreign: &["specfilm"],
-};
+const FILMS: Plugins = Plugins { built: &["hdrfilm"], later: &[], foreign: &["specfilm"] };
 
-const FILTERS: Plugins = Plugins {
-    built: &[
-        "box",
-        "tent",
-        "gaussian",
-        "mitchell",
-        "catmullrom",
-        "lanczos",
-    ],
-    later: &[],
-    foreign: &[],
-};
+const FILTERS: Plugins =
+    Plugins { built: &["box", "tent", "gaussian", "mitchell", "catmullrom", "lanczos"], later: &[], foreign: &[] };
 
 const SAMPLERS: Plugins = Plugins {
-    built: &[
-        "independent",
-        "stratified",
-        "multijitter",
-        "orthogonal",
-        "ldsampler",
-    ],
+    built: &["independent", "stratified", "multijitter", "orthogonal", "ldsampler"],
     later: &[],
     foreign: &[],
 };
@@ -146,11 +109,7 @@ fn of(tag: &str) -> &'static Plugins {
 
 /// Checks that the object's plugin is built.
 pub(super) fn check(object: &Object) -> Result<(), SceneError> {
-    if of(object.element.tag.name).built.contains(&object.plugin) {
-        Ok(())
-    } else {
-        Err(refuse(object))
-    }
+    if of(object.element.tag.name).built.contains(&object.plugin) { Ok(()) } else { Err(refuse(object)) }
 }
 
 /// Why the object's plugin cannot be read: known but not built yet, not planned, or unknown.
@@ -161,10 +120,7 @@ pub(super) fn refuse(object: &Object) -> SceneError {
     let what = if plugins.later.contains(&plugin) {
         format!("{tag} {} is known but not built yet", quote(plugin))
     } else if plugins.foreign.contains(&plugin) {
-        format!(
-            "{tag} {} is Mitsuba's and not part of this program",
-            quote(plugin)
-        )
+        format!("{tag} {} is Mitsuba's and not part of this program", quote(plugin))
     } else {
         format!("unknown {tag} {}", quote(plugin))
     };

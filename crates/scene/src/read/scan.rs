@@ -69,28 +69,18 @@ impl Tag {
                 (None, b'=') => attributes += 1,
                 (None, b'>') => {
                     let closed = markup.as_bytes()[at - 1] == b'/';
-                    return Tag {
-                        length: Some(at + 1),
-                        attributes,
-                        closed,
-                    };
+                    return Tag { length: Some(at + 1), attributes, closed };
                 }
                 _ => {}
             }
         }
-        Tag {
-            length: None,
-            attributes,
-            closed: false,
-        }
+        Tag { length: None, attributes, closed: false }
     }
 }
 
 /// Length of the markup up to and including `end`, looked for from byte `from`.
 fn past(markup: &str, from: usize, end: &str) -> Option<usize> {
-    markup[from..]
-        .find(end)
-        .map(|found| from + found + end.len())
+    markup[from..].find(end).map(|found| from + found + end.len())
 }
 
 fn refuse_declaration(offset: usize, markup: &str) -> Result<(), Refusal> {
@@ -106,16 +96,10 @@ fn refuse_declaration(offset: usize, markup: &str) -> Result<(), Refusal> {
 
 fn check(depth: usize, attributes: usize, count: usize) -> Result<(), Fault> {
     if depth > DEPTH_LIMIT {
-        return Err(Fault::new(
-            format!("more than {DEPTH_LIMIT} elements inside each other"),
-            "nest less deeply",
-        ));
+        return Err(Fault::new(format!("more than {DEPTH_LIMIT} elements inside each other"), "nest less deeply"));
     }
     if attributes > ATTRIBUTE_LIMIT {
-        return Err(Fault::new(
-            format!("more than {ATTRIBUTE_LIMIT} attributes"),
-            "remove those it does not take",
-        ));
+        return Err(Fault::new(format!("more than {ATTRIBUTE_LIMIT} attributes"), "remove those it does not take"));
     }
     check_count(count)
 }

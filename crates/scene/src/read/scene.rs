@@ -27,19 +27,9 @@ pub(super) struct Builder<'e> {
 /// Makes the scene that the tree describes.
 pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     let Loaded { root, ids, notes } = &loaded;
-    let scene = Scene {
-        shapes: Vec::new(),
-        emitters: Vec::new(),
-        sensors: Vec::new(),
-        max_depth: None,
-        notes: notes.clone(),
-    };
-    let mut builder = Builder {
-        scene,
-        bsdfs: HashMap::new(),
-        ids,
-        integrator: None,
-    };
+    let scene =
+        Scene { shapes: Vec::new(), emitters: Vec::new(), sensors: Vec::new(), max_depth: None, notes: notes.clone() };
+    let mut builder = Builder { scene, bsdfs: HashMap::new(), ids, integrator: None };
     for element in &root.children {
         builder.part(element)?;
     }
@@ -55,32 +45,18 @@ impl<'e> Builder<'e> {
             "emitter" => emitter(element, self),
             "bsdf" => bsdf(element, self).map(drop),
             "film" | "sampler" => Err(element.error(
-                format!(
-                    "{} outside a sensor is known but not built yet",
-                    element.tag.name
-                ),
+                format!("{} outside a sensor is known but not built yet", element.tag.name),
                 "put it into the sensor that uses it",
             )),
             _ => {
-                let what = format!(
-                    "{} cannot stand directly inside scene",
-                    quote(element.label())
-                );
-                Err(element.error(
-                    what,
-                    "a scene takes bsdf, default, emitter, include, integrator, sensor, shape",
-                ))
+                let what = format!("{} cannot stand directly inside scene", quote(element.label()));
+                Err(element.error(what, "a scene takes bsdf, default, emitter, include, integrator, sensor, shape"))
             }
         }
     }
 
     /// The element's id, or `STEM-NUMBER` if it has none and no other element has that.
-    pub(super) fn id(
-        &self,
-        element: &Element,
-        stem: &str,
-        number: usize,
-    ) -> Result<String, SceneError> {
+    pub(super) fn id(&self, element: &Element, stem: &str, number: usize) -> Result<String, SceneError> {
         if let Some(id) = element.attribute("id") {
             return Ok(id.to_owned());
         }

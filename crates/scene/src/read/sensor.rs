@@ -32,10 +32,7 @@ pub(super) fn sensor<'e>(
 ) -> Result<(), SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
-    let film = object
-        .single(&["film"])?
-        .map(|film| film::film(film, builder))
-        .transpose()?;
+    let film = object.single(&["film"])?.map(|film| film::film(film, builder)).transpose()?;
     if let Some(element) = object.single(&["sampler"])? {
         sampler(element, builder)?;
     }
@@ -45,25 +42,15 @@ pub(super) fn sensor<'e>(
             let film = film.unwrap_or(film::DEFAULT);
             (Receiver::Camera(camera(&mut object, film)?), film)
         }
-        ("radiancemeter", Position::Free) => (
-            Receiver::Meter(radiancemeter(&mut object)?),
-            one_cell(&object, film)?,
-        ),
-        ("irradiancemeter", Position::OnShape(shape)) => (
-            Receiver::Meter(Meter::Irradiancemeter { shape }),
-            film.unwrap_or(ONE_CELL),
-        ),
+        ("radiancemeter", Position::Free) => (Receiver::Meter(radiancemeter(&mut object)?), one_cell(&object, film)?),
+        ("irradiancemeter", Position::OnShape(shape)) => {
+            (Receiver::Meter(Meter::Irradiancemeter { shape }), film.unwrap_or(ONE_CELL))
+        }
         ("irradiancemeter", Position::Free) => {
-            return Err(element.error(
-                "an irradiancemeter outside a shape",
-                "put it into the shape that it measures",
-            ));
+            return Err(element.error("an irradiancemeter outside a shape", "put it into the shape that it measures"));
         }
         (plugin, _) => {
-            return Err(element.error(
-                format!("a {plugin} inside a shape"),
-                "put it beside the shape",
-            ));
+            return Err(element.error(format!("a {plugin} inside a shape"), "put it beside the shape"));
         }
     };
     object.close(&["srf", "aperture_radius", "focus_distance"])?;
@@ -72,19 +59,14 @@ pub(super) fn sensor<'e>(
     Ok(())
 }
 
-const ONE_CELL: Film = Film {
-    width: 1,
-    height: 1,
-};
+const ONE_CELL: Film = Film { width: 1, height: 1 };
 
 fn one_cell(object: &Object, film: Option<Film>) -> Result<Film, SceneError> {
     match film.unwrap_or(ONE_CELL) {
         ONE_CELL => Ok(ONE_CELL),
         Film { width, height } => {
             let what = format!("a radiancemeter has one cell, its film {width} x {height}");
-            Err(object
-                .element
-                .error(what, "set width and height to 1, or remove the film"))
+            Err(object.element.error(what, "set width and height to 1, or remove the film"))
         }
     }
 }
@@ -101,16 +83,10 @@ fn radiancemeter(object: &mut Object) -> Result<Meter, SceneError> {
             (transform.translation, transform.matrix3.z_axis)
         }
         (_, _, Some(_)) => {
-            return fail(
-                "to_world is given beside origin or direction",
-                "keep one of the two",
-            );
+            return fail("to_world is given beside origin or direction", "keep one of the two");
         }
         (_, _, None) => {
-            return fail(
-                "origin and direction are not both given",
-                "give both, or to_world",
-            );
+            return fail("origin and direction are not both given", "give both, or to_world");
         }
     };
     match unit(along) {
@@ -122,14 +98,8 @@ fn radiancemeter(object: &mut Object) -> Result<Meter, SceneError> {
 /// The scene stands still, so only the default shutter is the same thing in both programs.
 fn check_shutter(object: &mut Object) -> Result<(), SceneError> {
     for name in ["shutter_open", "shutter_close"] {
-        if object
-            .float(name, Range::ANY)?
-            .is_some_and(|time| time != 0.0)
-        {
-            return Err(object.element.error(
-                format!("{name} other than 0 is known but not built yet"),
-                "remove it",
-            ));
+        if object.float(name, Range::ANY)?.is_some_and(|time| time != 0.0) {
+            return Err(object.element.error(format!("{name} other than 0 is known but not built yet"), "remove it"));
         }
     }
     Ok(())

@@ -21,13 +21,8 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     plugins::check(&object)?;
     let (geometry, mirrored) = geometry(&mut object)?;
     let flipped = object.boolean("flip_normals")?.unwrap_or(false);
-    if object
-        .float("silhouette_sampling_weight", Range::ANY)?
-        .is_some()
-    {
-        builder.note(
-            "silhouette_sampling_weight is for Mitsuba's own sampling and has no effect here",
-        );
+    if object.float("silhouette_sampling_weight", Range::ANY)?.is_some() {
+        builder.note("silhouette_sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
     let coating = object.single(&TAGS)?;
     let lamp = object.single(&["emitter"])?;
@@ -41,16 +36,8 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     };
     let index = builder.scene.shapes.len();
     let id = builder.id(element, "shape", index)?;
-    builder.scene.shapes.push(Shape {
-        id,
-        geometry,
-        flip_normals: flipped != mirrored,
-        bsdf,
-        radiance,
-    });
-    meters
-        .into_iter()
-        .try_for_each(|meter| sensor(meter, Position::OnShape(index), builder))
+    builder.scene.shapes.push(Shape { id, geometry, flip_normals: flipped != mirrored, bsdf, radiance });
+    meters.into_iter().try_for_each(|meter| sensor(meter, Position::OnShape(index), builder))
 }
 
 /// The geometry, and whether a mirror in `to_world` turns its normals around beyond what [`Geometry`] says.
@@ -67,11 +54,5 @@ fn geometry(object: &mut Object) -> Result<(Geometry, bool), SceneError> {
 
 /// Mitsuba's coating of a shape without one.
 fn uncoated(radiance: Option<Rgb>) -> Bsdf {
-    Bsdf::Diffuse {
-        reflectance: if radiance.is_some() {
-            [0.0; 3]
-        } else {
-            [0.5; 3]
-        },
-    }
+    Bsdf::Diffuse { reflectance: if radiance.is_some() { [0.0; 3] } else { [0.5; 3] } }
 }

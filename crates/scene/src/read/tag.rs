@@ -36,12 +36,7 @@ const fn tag(
     required: &'static [&'static str],
     optional: &'static [&'static str],
 ) -> Tag {
-    Tag {
-        name,
-        kind,
-        required,
-        optional,
-    }
+    Tag { name, kind, required, optional }
 }
 
 const fn object(name: &'static str) -> Tag {
@@ -71,24 +66,9 @@ static TAGS: [Tag; 31] = [
     property("float"),
     property("string"),
     property("rgb"),
-    tag(
-        "spectrum",
-        Kind::Property,
-        &["name"],
-        &["value", "filename", "type", "id"],
-    ),
-    tag(
-        "point",
-        Kind::Property,
-        &["name"],
-        &["value", "x", "y", "z"],
-    ),
-    tag(
-        "vector",
-        Kind::Property,
-        &["name"],
-        &["value", "x", "y", "z"],
-    ),
+    tag("spectrum", Kind::Property, &["name"], &["value", "filename", "type", "id"]),
+    tag("point", Kind::Property, &["name"], &["value", "x", "y", "z"]),
+    tag("vector", Kind::Property, &["name"], &["value", "x", "y", "z"]),
     tag("transform", Kind::Transform, &["name"], &[]),
     tag("translate", Kind::Step, &[], &["value", "x", "y", "z"]),
     tag("scale", Kind::Step, &[], &["value", "x", "y", "z"]),
@@ -112,22 +92,11 @@ impl Tag {
             ));
         }
         let Some(found) = TAGS.iter().find(|tag| tag.name == name) else {
-            let known = nearest_first(
-                name,
-                TAGS.iter()
-                    .filter(|tag| tag.kind != Kind::Later)
-                    .map(|tag| tag.name),
-            );
-            return Err(Fault::new(
-                format!("unknown element {}", quote(name)),
-                format!("use one of {known}"),
-            ));
+            let known = nearest_first(name, TAGS.iter().filter(|tag| tag.kind != Kind::Later).map(|tag| tag.name));
+            return Err(Fault::new(format!("unknown element {}", quote(name)), format!("use one of {known}")));
         };
         if found.kind == Kind::Later {
-            return Err(Fault::new(
-                format!("{name} is known but not built yet"),
-                "take it out of the scene for now",
-            ));
+            return Err(Fault::new(format!("{name} is known but not built yet"), "take it out of the scene for now"));
         }
         Ok(found)
     }
@@ -137,10 +106,7 @@ impl Tag {
         let mut accepted = self.required.iter().chain(self.optional).copied();
         accepted.find(|known| *known == name).ok_or_else(|| {
             let known = nearest_first(name, self.required.iter().chain(self.optional).copied());
-            Fault::new(
-                format!("unknown attribute {}", quote(name)),
-                format!("{} takes {known}", self.name),
-            )
+            Fault::new(format!("unknown attribute {}", quote(name)), format!("{} takes {known}", self.name))
         })
     }
 
@@ -160,23 +126,13 @@ impl Tag {
             _ if self.name == "scene" => "use include, or move its contents up",
             _ => "move it out",
         };
-        Err(Fault::new(
-            format!("cannot stand inside {}", parent.name),
-            mend,
-        ))
+        Err(Fault::new(format!("cannot stand inside {}", parent.name), mend))
     }
 
     /// Checks that nothing required is missing from `element`.
     pub(super) fn check_required(&self, element: &Element) -> Result<(), Fault> {
-        match self
-            .required
-            .iter()
-            .find(|name| element.attribute(name).is_none())
-        {
-            Some(name) => Err(Fault::new(
-                format!("attribute {name} is missing"),
-                format!("add {name}=\"...\""),
-            )),
+        match self.required.iter().find(|name| element.attribute(name).is_none()) {
+            Some(name) => Err(Fault::new(format!("attribute {name} is missing"), format!("add {name}=\"...\""))),
             None => Ok(()),
         }
     }

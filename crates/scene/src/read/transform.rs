@@ -29,11 +29,7 @@ pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
         return None;
     }
     // The square of a length is lost only outside these bounds.
-    let vector = if (1e-100..1e100).contains(&largest) {
-        vector
-    } else {
-        vector / largest
-    };
+    let vector = if (1e-100..1e100).contains(&largest) { vector } else { vector / largest };
     Some(vector / vector.length())
 }
 
@@ -48,10 +44,7 @@ pub(super) fn three(element: &Element, missing: Option<f64>) -> Result<DVec3, Fa
         let read = |index: usize| match (coordinates[index], missing) {
             (Some(text), _) => float(text),
             (None, Some(number)) => Ok(number),
-            (None, None) => Err(Fault::new(
-                format!("{} is missing", ["x", "y", "z"][index]),
-                "give x, y and z",
-            )),
+            (None, None) => Err(Fault::new(format!("{} is missing", ["x", "y", "z"][index]), "give x, y and z")),
         };
         return Ok(DVec3::new(read(0)?, read(1)?, read(2)?));
     };
@@ -76,19 +69,12 @@ fn step(element: &Element) -> Result<DAffine3, Fault> {
 }
 
 fn rotate(element: &Element) -> Result<DAffine3, Fault> {
-    let axis = unit(three(element, Some(0.0))?)
-        .ok_or_else(|| Fault::new("the axis is zero", "give x, y or z"))?;
+    let axis = unit(three(element, Some(0.0))?).ok_or_else(|| Fault::new("the axis is zero", "give x, y or z"))?;
     let degrees = float(element.required("angle"))?;
     let (sin, cos) = sin_cos_degrees(degrees);
     let along = DMat3::from_cols(axis * axis.x, axis * axis.y, axis * axis.z);
-    let across = DMat3::from_cols(
-        axis.cross(DVec3::X),
-        axis.cross(DVec3::Y),
-        axis.cross(DVec3::Z),
-    );
-    Ok(DAffine3::from_mat3(
-        DMat3::IDENTITY * cos + across * sin + along * (1.0 - cos),
-    ))
+    let across = DMat3::from_cols(axis.cross(DVec3::X), axis.cross(DVec3::Y), axis.cross(DVec3::Z));
+    Ok(DAffine3::from_mat3(DMat3::IDENTITY * cos + across * sin + along * (1.0 - cos)))
 }
 
 /// Sine and cosine, exact at right angles, so that walls turned by them meet.
@@ -104,41 +90,28 @@ fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
 
 /// Mitsuba's: +z to the target, +x to the left, +y up.
 fn look_at(element: &Element) -> Result<DAffine3, Fault> {
-    let read = |name: &str| {
-        list(element.required(name), &[3])
-            .map(|numbers| DVec3::new(numbers[0], numbers[1], numbers[2]))
-    };
+    let read =
+        |name: &str| list(element.required(name), &[3]).map(|numbers| DVec3::new(numbers[0], numbers[1], numbers[2]));
     let (origin, target) = (read("origin")?, read("target")?);
-    let forward = unit(target - origin)
-        .ok_or_else(|| Fault::new("origin and target are the same point", "move one of them"))?;
+    let forward =
+        unit(target - origin).ok_or_else(|| Fault::new("origin and target are the same point", "move one of them"))?;
     let up = match element.attribute("up") {
-        Some(_) => unit(read("up")?)
-            .ok_or_else(|| Fault::new("up is zero", "give a direction such as 0 1 0"))?,
+        Some(_) => unit(read("up")?).ok_or_else(|| Fault::new("up is zero", "give a direction such as 0 1 0"))?,
         None => any_up(forward),
     };
     let left = up.cross(forward);
     if left.length() < SMALLEST_SINE {
-        return Err(Fault::new(
-            "up is along the direction of view",
-            "give another up",
-        ));
+        return Err(Fault::new("up is along the direction of view", "give another up"));
     }
     let left = left.normalize();
-    Ok(DAffine3::from_mat3_translation(
-        DMat3::from_cols(left, forward.cross(left), forward),
-        origin,
-    ))
+    Ok(DAffine3::from_mat3_translation(DMat3::from_cols(left, forward.cross(left), forward), origin))
 }
 
 /// The `up` that Mitsuba takes if none is given (Duff and others 2017, "Building an Orthonormal Basis, Revisited").
 fn any_up(n: DVec3) -> DVec3 {
     let sign = 1f64.copysign(n.z);
     let a = -1.0 / (sign + n.z);
-    DVec3::new(
-        1.0 + sign * n.x * n.x * a,
-        sign * n.x * n.y * a,
-        -sign * n.x,
-    )
+    DVec3::new(1.0 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x)
 }
 
 /// Sixteen numbers row by row, or nine without translation.
@@ -151,32 +124,21 @@ fn matrix(text: &str) -> Result<DAffine3, Fault> {
         return Ok(DAffine3::from_mat3(linear));
     }
     if numbers[12..] != [0.0, 0.0, 0.0, 1.0] {
-        return Err(Fault::new(
-            format!("the last row of {} is not 0 0 0 1", quote(text)),
-            "give an affine matrix",
-        ));
+        return Err(Fault::new(format!("the last row of {} is not 0 0 0 1", quote(text)), "give an affine matrix"));
     }
     Ok(DAffine3::from_mat3_translation(linear, column(3)))
 }
 
 fn check_invertible(transform: &DAffine3) -> Result<(), Fault> {
     for number in transform.to_cols_array() {
-        Range::COORDINATE
-            .check(number)
-            .map_err(|fault| Fault::new(format!("an entry {}", fault.what), fault.mend))?;
+        Range::COORDINATE.check(number).map_err(|fault| Fault::new(format!("an entry {}", fault.what), fault.mend))?;
     }
     let linear = transform.matrix3;
-    let largest = linear
-        .to_cols_array()
-        .into_iter()
-        .fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
+    let largest = linear.to_cols_array().into_iter().fold(0.0, |largest: f64, entry| largest.max(entry.abs()));
     debug_assert!(largest <= LONGEST);
     let determinant = (linear * largest.recip()).determinant();
     if largest < SHORTEST || determinant.abs() < SMALLEST_DETERMINANT {
-        return Err(Fault::new(
-            "the transform is singular: it flattens space",
-            "scale no axis by zero",
-        ));
+        return Err(Fault::new("the transform is singular: it flattens space", "scale no axis by zero"));
     }
     Ok(())
 }

@@ -7,26 +7,13 @@ use super::names::quote;
 pub(super) fn check_version(version: Option<&str>, required: bool) -> Result<(), Fault> {
     let mend = "write <scene version=\"3.0.0\">, after bringing an older scene up to Mitsuba 3";
     let Some(version) = version else {
-        return if required {
-            Err(Fault::new("attribute version is missing", mend))
-        } else {
-            Ok(())
-        };
+        return if required { Err(Fault::new("attribute version is missing", mend)) } else { Ok(()) };
     };
     let parts: Option<Vec<u32>> = version.split('.').map(|part| part.parse().ok()).collect();
     match parts.as_deref() {
         Some([3, rest @ ..]) if rest.len() <= 2 => Ok(()),
-        Some([0..=2, ..]) => Err(Fault::new(
-            format!("version {} is older than Mitsuba 3", quote(version)),
-            mend,
-        )),
-        Some([(4..), ..]) => Err(Fault::new(
-            format!("version {} is newer than Mitsuba 3", quote(version)),
-            mend,
-        )),
-        _ => Err(Fault::new(
-            format!("version {} is not a version of Mitsuba", quote(version)),
-            mend,
-        )),
+        Some([0..=2, ..]) => Err(Fault::new(format!("version {} is older than Mitsuba 3", quote(version)), mend)),
+        Some([(4..), ..]) => Err(Fault::new(format!("version {} is newer than Mitsuba 3", quote(version)), mend)),
+        _ => Err(Fault::new(format!("version {} is not a version of Mitsuba", quote(version)), mend)),
     }
 }

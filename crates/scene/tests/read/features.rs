@@ -21,13 +21,8 @@ fn linear(steps: &str) -> glam::DAffine3 {
 fn steps_apply_in_the_order_of_the_file() {
     let moved = linear("<scale x='2'/><rotate z='1' angle='90'/><translate x='1' y='2' z='3'/>");
     assert_eq!(moved.transform_point3(DVec3::X), DVec3::new(1.0, 4.0, 3.0));
-    let other = linear(
-        "<translate value='1, 2, 3'/><rotate value='0 0 5' angle='-270'/><scale value='2'/>",
-    );
-    assert_eq!(
-        other.transform_point3(DVec3::ZERO),
-        DVec3::new(-4.0, 2.0, 6.0)
-    );
+    let other = linear("<translate value='1, 2, 3'/><rotate value='0 0 5' angle='-270'/><scale value='2'/>");
+    assert_eq!(other.transform_point3(DVec3::ZERO), DVec3::new(-4.0, 2.0, 6.0));
 }
 
 #[test]
@@ -36,36 +31,22 @@ fn a_rotation_about_any_axis_is_rodrigues() {
     assert!((turned.transform_vector3(DVec3::X) - DVec3::Y).length() < 1e-15);
     let expected = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.3f64.to_radians());
     let difference = linear("<rotate value='6 0 8' angle='0.3'/>").matrix3 - expected;
-    assert!(
-        difference
-            .to_cols_array()
-            .iter()
-            .all(|entry| entry.abs() < 1e-15)
-    );
+    assert!(difference.to_cols_array().iter().all(|entry| entry.abs() < 1e-15));
 }
 
 #[test]
 fn a_matrix_is_written_row_by_row() {
     let full = linear("<matrix value='1 2 3 4  0 5 6 7  0 0 8 9  0 0 0 1'/>");
-    assert_eq!(
-        full.transform_point3(DVec3::ONE),
-        DVec3::new(10.0, 18.0, 17.0)
-    );
+    assert_eq!(full.transform_point3(DVec3::ONE), DVec3::new(10.0, 18.0, 17.0));
     let three = linear("<matrix value='1,2,3, 0,5,6, 0,0,8'/>");
-    assert_eq!(
-        three.transform_point3(DVec3::ONE),
-        DVec3::new(6.0, 11.0, 8.0)
-    );
+    assert_eq!(three.transform_point3(DVec3::ONE), DVec3::new(6.0, 11.0, 8.0));
 }
 
 #[test]
 fn a_lookat_without_up_takes_mitsubas() {
     // Mitsuba 3.9.1 prints these columns for a target along +z.
     let frame = linear("<lookat origin='0 0 0' target='0 0 1'/>");
-    assert_eq!(
-        frame.matrix3,
-        DMat3::from_cols(DVec3::NEG_Y, DVec3::X, DVec3::Z)
-    );
+    assert_eq!(frame.matrix3, DMat3::from_cols(DVec3::NEG_Y, DVec3::X, DVec3::Z));
 }
 
 #[test]
@@ -90,12 +71,7 @@ fn a_mirror_turns_a_spheres_normals_as_in_mitsuba() {
              <transform name='to_world'>{steps}</transform></shape>"
         );
         let shape = shape(&body);
-        let Geometry::Sphere {
-            radius, to_world, ..
-        } = shape.geometry
-        else {
-            panic!("no sphere")
-        };
+        let Geometry::Sphere { radius, to_world, .. } = shape.geometry else { panic!("no sphere") };
         assert_eq!(radius, 1.0);
         (shape.flip_normals, to_world.determinant())
     };
@@ -116,13 +92,7 @@ fn six_digits_of_a_rotation_are_enough_for_a_sphere() {
     };
     assert!((radius - 0.3).abs() < 1e-6);
     let error = to_world.transpose() * to_world - DMat3::IDENTITY;
-    assert!(
-        error
-            .to_cols_array()
-            .iter()
-            .all(|entry| entry.abs() < 1e-15),
-        "{error}"
-    );
+    assert!(error.to_cols_array().iter().all(|entry| entry.abs() < 1e-15), "{error}");
 }
 
 #[test]
@@ -135,23 +105,10 @@ fn ids_are_kept_or_counted() {
     );
     let shapes: Vec<&str> = scene.shapes.iter().map(|shape| shape.id.as_str()).collect();
     assert_eq!(shapes, ["shape-0", "box", "shape-2"]);
-    let sensors: Vec<(&str, Film)> = scene
-        .sensors
-        .iter()
-        .map(|sensor| (sensor.id.as_str(), sensor.film))
-        .collect();
+    let sensors: Vec<(&str, Film)> = scene.sensors.iter().map(|sensor| (sensor.id.as_str(), sensor.film)).collect();
     let film = |width, height| Film { width, height };
-    assert_eq!(
-        sensors,
-        [
-            ("sensor-0", film(1, 1)),
-            ("m", film(4, 2)),
-            ("sensor-2", film(768, 576))
-        ]
-    );
-    let Receiver::Meter(Meter::Irradiancemeter { shape }) = scene.sensors[1].receiver else {
-        panic!("no meter")
-    };
+    assert_eq!(sensors, [("sensor-0", film(1, 1)), ("m", film(4, 2)), ("sensor-2", film(768, 576))]);
+    let Receiver::Meter(Meter::Irradiancemeter { shape }) = scene.sensors[1].receiver else { panic!("no meter") };
     assert_eq!(shape, 2);
 }
 
@@ -160,9 +117,7 @@ fn defaults_work_in_the_order_of_the_file() {
     let body = "<default name='r' value='2'/><default name='long-r' value='$r.5'/><default name='r' value='9'/>
         <default name='kind' value='sphere'/>
         <shape type='$kind'><float name='radius' value='$long-r'/></shape>";
-    let radius = |defines: &[(&str, &str)]| match read_body(body, defines).expect("right").shapes[0]
-        .geometry
-    {
+    let radius = |defines: &[(&str, &str)]| match read_body(body, defines).expect("right").shapes[0].geometry {
         Geometry::Sphere { radius, .. } => radius,
         _ => panic!("no sphere"),
     };
@@ -170,30 +125,18 @@ fn defaults_work_in_the_order_of_the_file() {
     assert_eq!(radius(&[("r", "3")]), 3.5);
     assert_eq!(radius(&[("long-r", "7"), ("r", "3")]), 7.0);
     let notes = read_body(body, &[]).expect("right").notes;
-    assert_eq!(
-        notes,
-        ["test.xml:2: default \"r\" keeps its first value \"2\""]
-    );
-    assert_eq!(
-        read_body(body, &[("r", "3")]).expect("right").notes,
-        [""; 0]
-    );
+    assert_eq!(notes, ["test.xml:2: default \"r\" keeps its first value \"2\""]);
+    assert_eq!(read_body(body, &[("r", "3")]).expect("right").notes, [""; 0]);
 }
 
 #[test]
 fn integrators_are_superseded_and_their_depth_obeyed() {
-    let integrator =
-        |inside: &str| scene(&format!("<integrator type='volpath'>{inside}</integrator>"));
+    let integrator = |inside: &str| scene(&format!("<integrator type='volpath'>{inside}</integrator>"));
     assert_eq!(integrator("").max_depth, None);
-    assert_eq!(
-        integrator("<integer name='max_depth' value='-1'/>").max_depth,
-        None
-    );
-    let deep =
-        integrator("<integer name='max_depth' value='7'/><integer name='rr_depth' value='5'/>");
+    assert_eq!(integrator("<integer name='max_depth' value='-1'/>").max_depth, None);
+    let deep = integrator("<integer name='max_depth' value='7'/><integer name='rr_depth' value='5'/>");
     assert_eq!(deep.max_depth, Some(7));
-    let note =
-        "integrator volpath is superseded by --method; its max_depth is obeyed; not used: rr_depth";
+    let note = "integrator volpath is superseded by --method; its max_depth is obeyed; not used: rr_depth";
     assert_eq!(deep.notes, [note]);
 }
 
@@ -204,11 +147,7 @@ fn what_a_film_asks_of_its_output_is_noted() {
          <rfilter type='gaussian'/></film></sensor>",
     );
     assert_eq!(scene.notes.len(), 2);
-    assert!(
-        scene.notes[0].contains("R G B") && scene.notes[1].contains("\"gaussian\""),
-        "{:?}",
-        scene.notes
-    );
+    assert!(scene.notes[0].contains("R G B") && scene.notes[1].contains("\"gaussian\""), "{:?}", scene.notes);
 }
 
 #[test]

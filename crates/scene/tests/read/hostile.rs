@@ -21,70 +21,33 @@ fn refused(text: &str, fragment: &str) -> SceneError {
 #[test]
 fn nesting_without_end() {
     let deep = |open: &str| format!("<scene version='3.0.0'>\n{}", open.repeat(1_000_000));
-    assert_eq!(
-        refused(
-            &deep("<shape type='cube'>\n"),
-            "more than 64 elements inside each other"
-        )
-        .line,
-        65
-    );
+    assert_eq!(refused(&deep("<shape type='cube'>\n"), "more than 64 elements inside each other").line, 65);
     refused(&deep("<a>"), "more than 64 elements");
     refused(&deep("<a xmlns:b='c'>"), "more than 64 elements");
     refused(&deep("<!-- --><a>"), "more than 64 elements");
-    let closed = format!(
-        "{}{}",
-        "<scene version='3.0.0'>".repeat(100_000),
-        "</scene>".repeat(100_000)
-    );
+    let closed = format!("{}{}", "<scene version='3.0.0'>".repeat(100_000), "</scene>".repeat(100_000));
     refused(&closed, "more than 64 elements");
 }
 
 #[test]
 fn attributes_without_end() {
-    let many: String = (0..300_000)
-        .map(|number| format!(" a{number}=''"))
-        .collect();
+    let many: String = (0..300_000).map(|number| format!(" a{number}=''")).collect();
     refused(&format!("<scene{many}/>"), "more than 16 attributes");
-    let spaces: String = (0..300_000)
-        .map(|number| format!(" xmlns:a{number}='b'"))
-        .collect();
+    let spaces: String = (0..300_000).map(|number| format!(" xmlns:a{number}='b'")).collect();
     refused(&format!("<scene{spaces}/>"), "more than 16 attributes");
-    refused(
-        &format!(
-            "<scene version='3.0.0'>{}</scene>",
-            "<a/>".repeat(5_000_000)
-        ),
-        "more than 4194304 tags",
-    );
+    refused(&format!("<scene version='3.0.0'>{}</scene>", "<a/>".repeat(5_000_000)), "more than 4194304 tags");
 }
 
 #[test]
 fn values_without_end() {
     let long = "1 ".repeat(4_000_000);
-    let shape = |inside: &str| {
-        format!("<scene version='3.0.0'><shape type='sphere'>{inside}</shape></scene>")
-    };
-    refused(
-        &shape(&format!("<point name='center' value='{long}'/>")),
-        "holds more than 3 numbers",
-    );
-    refused(
-        &shape(&format!("<float name='radius' value='{long}'/>")),
-        "is not a number",
-    );
-    refused(
-        &shape(&format!("<float name='{long}' value='1'/>")),
-        "unknown parameter",
-    );
+    let shape = |inside: &str| format!("<scene version='3.0.0'><shape type='sphere'>{inside}</shape></scene>");
+    refused(&shape(&format!("<point name='center' value='{long}'/>")), "holds more than 3 numbers");
+    refused(&shape(&format!("<float name='radius' value='{long}'/>")), "is not a number");
+    refused(&shape(&format!("<float name='{long}' value='1'/>")), "unknown parameter");
     refused(&shape(&long), "text \"1 1 1");
-    refused(
-        &format!("<{} version='3.0.0'/>", "x".repeat(60_000)),
-        "unknown element",
-    );
-    let wide: String = (0..200_000)
-        .map(|number| format!("<float name='r{number}' value='1'/>"))
-        .collect();
+    refused(&format!("<{} version='3.0.0'/>", "x".repeat(60_000)), "unknown element");
+    let wide: String = (0..200_000).map(|number| format!("<float name='r{number}' value='1'/>")).collect();
     refused(&shape(&wide), "unknown parameter \"r0\"");
 }
 
@@ -105,13 +68,9 @@ fn defaults_that_multiply() {
 
 #[test]
 fn entities_are_refused() {
-    let bomb =
-        "<!DOCTYPE s [<!ENTITY a 'ha'><!ENTITY b '&a;&a;&a;'>]><scene version='3.0.0'>&b;</scene>";
+    let bomb = "<!DOCTYPE s [<!ENTITY a 'ha'><!ENTITY b '&a;&a;&a;'>]><scene version='3.0.0'>&b;</scene>";
     refused(bomb, "document type declarations and entities are refused");
-    refused(
-        "<!DOCTYPE s SYSTEM 'file:///etc/passwd'><scene version='3.0.0'/>",
-        "document type",
-    );
+    refused("<!DOCTYPE s SYSTEM 'file:///etc/passwd'><scene version='3.0.0'/>", "document type");
 }
 
 #[test]
@@ -135,10 +94,7 @@ fn odd_bytes() {
     ] {
         read_scene_str(text, "t", &[]).expect_err(text);
     }
-    refused(
-        "<scene version='3.0.0'>\n<shape type='\u{1}'/></scene>",
-        "t:2: scene: not XML",
-    );
+    refused("<scene version='3.0.0'>\n<shape type='\u{1}'/></scene>", "t:2: scene: not XML");
 }
 
 const SAMPLES: [&str; 6] = [
@@ -180,11 +136,7 @@ fn mutate(text: &str, changes: &[Change]) -> String {
 
 fn letter() -> impl Strategy<Value = char> {
     prop_oneof![
-        proptest::sample::select(
-            "<>/'\"=$&#-.e0123456789 \n!?[]:xyz\0\u{feff}\u{7f}é"
-                .chars()
-                .collect::<Vec<_>>()
-        ),
+        proptest::sample::select("<>/'\"=$&#-.e0123456789 \n!?[]:xyz\0\u{feff}\u{7f}é".chars().collect::<Vec<_>>()),
         any::<char>()
     ]
 }

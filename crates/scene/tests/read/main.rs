@@ -12,15 +12,9 @@ use photonlab_scene::read::{SceneError, read_scene_str};
 
 /// The scene with `body` on line 2 and after.
 fn read_body(body: &str, defines: &[(&str, &str)]) -> Result<Scene, SceneError> {
-    let defines: Vec<(String, String)> = defines
-        .iter()
-        .map(|(name, value)| ((*name).to_owned(), (*value).to_owned()))
-        .collect();
-    read_scene_str(
-        &format!("<scene version=\"3.0.0\">\n{body}\n</scene>"),
-        "test.xml",
-        &defines,
-    )
+    let defines: Vec<(String, String)> =
+        defines.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+    read_scene_str(&format!("<scene version=\"3.0.0\">\n{body}\n</scene>"), "test.xml", &defines)
 }
 
 /// The scene, which must be right.

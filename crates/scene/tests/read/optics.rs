@@ -6,43 +6,26 @@ use photonlab_scene::{Bsdf, Camera, Emitter, Meter, Receiver};
 use super::scene;
 
 fn bsdf(xml: &str) -> Bsdf {
-    scene(&format!("<shape type='sphere'>{xml}</shape>"))
-        .shapes
-        .remove(0)
-        .bsdf
+    scene(&format!("<shape type='sphere'>{xml}</shape>")).shapes.remove(0).bsdf
 }
 
 fn diffuse(reflectance: f64) -> Bsdf {
-    Bsdf::Diffuse {
-        reflectance: [reflectance; 3],
-    }
+    Bsdf::Diffuse { reflectance: [reflectance; 3] }
 }
 
 #[test]
 fn colours_have_many_spellings() {
     for (xml, expected) in [
         ("<rgb name='reflectance' value='0.25'/>", [0.25; 3]),
-        (
-            "<rgb name='reflectance' value='0.1, 0.2,0.3'/>",
-            [0.1, 0.2, 0.3],
-        ),
-        (
-            "<rgb name='reflectance' value=' 0.1 0.2  0.3 '/>",
-            [0.1, 0.2, 0.3],
-        ),
+        ("<rgb name='reflectance' value='0.1, 0.2,0.3'/>", [0.1, 0.2, 0.3]),
+        ("<rgb name='reflectance' value=' 0.1 0.2  0.3 '/>", [0.1, 0.2, 0.3]),
         ("<spectrum name='reflectance' value='0.25'/>", [0.25; 3]),
         ("<float name='reflectance' value='0.25'/>", [0.25; 3]),
         ("<float name='reflectance' value='2.5e-1'/>", [0.25; 3]),
         ("", [0.5; 3]),
     ] {
         let found = bsdf(&format!("<bsdf type='diffuse'>{xml}</bsdf>"));
-        assert_eq!(
-            found,
-            Bsdf::Diffuse {
-                reflectance: expected
-            },
-            "{xml}"
-        );
+        assert_eq!(found, Bsdf::Diffuse { reflectance: expected }, "{xml}");
     }
 }
 
@@ -54,78 +37,33 @@ fn a_shape_without_coating_is_grey_or_black() {
 
 #[test]
 fn dielectrics_take_numbers_and_names() {
-    let dielectric = |interior_index, exterior_index| Bsdf::Dielectric {
-        interior_index,
-        exterior_index,
-    };
-    assert_eq!(
-        bsdf("<bsdf type='dielectric'/>"),
-        dielectric(1.5046, 1.000277)
-    );
-    let named =
-        "<string name='int_ior' value='Diamond'/><string name='ext_ior' value='carbon dioxide'/>";
-    assert_eq!(
-        bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")),
-        dielectric(2.419, 1.00045)
-    );
+    let dielectric = |interior_index, exterior_index| Bsdf::Dielectric { interior_index, exterior_index };
+    assert_eq!(bsdf("<bsdf type='dielectric'/>"), dielectric(1.5046, 1.000277));
+    let named = "<string name='int_ior' value='Diamond'/><string name='ext_ior' value='carbon dioxide'/>";
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")), dielectric(2.419, 1.00045));
     let numbers = "<float name='int_ior' value='1'/><integer name='ext_ior' value='2'/>
         <rgb name='specular_reflectance' value='1 1 1'/><float name='specular_transmittance' value='1'/>";
-    assert_eq!(
-        bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")),
-        dielectric(1.0, 2.0)
-    );
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")), dielectric(1.0, 2.0));
 }
 
 #[test]
 fn a_conductor_of_no_metal_is_a_mirror() {
     for xml in ["", "<string name='material' value='none'/>"] {
-        assert_eq!(
-            bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")),
-            Bsdf::Mirror {
-                reflectance: [1.0; 3]
-            }
-        );
+        assert_eq!(bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")), Bsdf::Mirror { reflectance: [1.0; 3] });
     }
-    let dim =
-        "<bsdf type='conductor'><rgb name='specular_reflectance' value='0.9 0.8 0.7'/></bsdf>";
-    assert_eq!(
-        bsdf(dim),
-        Bsdf::Mirror {
-            reflectance: [0.9, 0.8, 0.7]
-        }
-    );
+    let dim = "<bsdf type='conductor'><rgb name='specular_reflectance' value='0.9 0.8 0.7'/></bsdf>";
+    assert_eq!(bsdf(dim), Bsdf::Mirror { reflectance: [0.9, 0.8, 0.7] });
 }
 
 #[test]
 fn twosided_shows_a_front_on_each_side() {
-    let grey = |value: f64| {
-        format!("<bsdf type='diffuse'><float name='reflectance' value='{value}'/></bsdf>")
-    };
-    let two = |front: f64, back: f64| Bsdf::TwoSided {
-        front: Box::new(diffuse(front)),
-        back: Box::new(diffuse(back)),
-    };
-    assert_eq!(
-        bsdf(&format!("<bsdf type='twosided'>{}</bsdf>", grey(0.1))),
-        two(0.1, 0.1)
-    );
-    assert_eq!(
-        bsdf(&format!(
-            "<bsdf type='twosided'>{}{}</bsdf>",
-            grey(0.1),
-            grey(0.2)
-        )),
-        two(0.1, 0.2)
-    );
+    let grey = |value: f64| format!("<bsdf type='diffuse'><float name='reflectance' value='{value}'/></bsdf>");
+    let two = |front: f64, back: f64| Bsdf::TwoSided { front: Box::new(diffuse(front)), back: Box::new(diffuse(back)) };
+    assert_eq!(bsdf(&format!("<bsdf type='twosided'>{}</bsdf>", grey(0.1))), two(0.1, 0.1));
+    assert_eq!(bsdf(&format!("<bsdf type='twosided'>{}{}</bsdf>", grey(0.1), grey(0.2))), two(0.1, 0.2));
     // Checked against Mitsuba 3.9.1: a twosided inside shows its front.
     let inner = format!("<bsdf type='twosided'>{}{}</bsdf>", grey(0.2), grey(0.3));
-    assert_eq!(
-        bsdf(&format!(
-            "<bsdf type='twosided'>{}{inner}</bsdf>",
-            grey(0.1)
-        )),
-        two(0.1, 0.2)
-    );
+    assert_eq!(bsdf(&format!("<bsdf type='twosided'>{}{inner}</bsdf>", grey(0.1))), two(0.1, 0.2));
 }
 
 #[test]
@@ -138,13 +76,8 @@ fn a_ref_stands_for_an_earlier_bsdf() {
          <shape type='cube'><bsdf type='conductor' id='c'/></shape>
          <shape type='cube'><ref id='c'/></shape>",
     );
-    let both = Bsdf::TwoSided {
-        front: Box::new(diffuse(0.1)),
-        back: Box::new(diffuse(0.1)),
-    };
-    let mirror = Bsdf::Mirror {
-        reflectance: [1.0; 3],
-    };
+    let both = Bsdf::TwoSided { front: Box::new(diffuse(0.1)), back: Box::new(diffuse(0.1)) };
+    let mirror = Bsdf::Mirror { reflectance: [1.0; 3] };
     let found: Vec<Bsdf> = scene.shapes.into_iter().map(|shape| shape.bsdf).collect();
     assert_eq!(found, [diffuse(0.1), both, mirror.clone(), mirror]);
 }
@@ -164,19 +97,9 @@ fn lamps_have_positions_directions_and_strengths() {
         direction,
         irradiance: [irradiance; 3],
     };
-    assert_eq!(
-        scene.emitters[0],
-        Emitter::Point {
-            id: "p".to_owned(),
-            position: DVec3::X,
-            intensity: [3.0; 3]
-        }
-    );
+    assert_eq!(scene.emitters[0], Emitter::Point { id: "p".to_owned(), position: DVec3::X, intensity: [3.0; 3] });
     assert_eq!(scene.emitters[1], directional(1, DVec3::NEG_Z, 1.0));
-    assert_eq!(
-        scene.emitters[2],
-        directional(2, DVec3::new(0.6, 0.0, -0.8), 0.0)
-    );
+    assert_eq!(scene.emitters[2], directional(2, DVec3::new(0.6, 0.0, -0.8), 0.0));
     assert_eq!(scene.shapes[0].radiance, Some([1.0, 2.0, 3.0]));
 }
 
@@ -184,16 +107,9 @@ fn lamps_have_positions_directions_and_strengths() {
 fn directions_of_any_length_are_directions() {
     for length in ["e-300", "e-9", "e100", "e300"] {
         let direction = format!("<vector name='direction' value='3{length} 0 -4{length}'/>");
-        let scene = scene(&format!(
-            "<emitter type='directional'>{direction}</emitter>"
-        ));
-        let Emitter::Directional { direction, .. } = &scene.emitters[0] else {
-            panic!("{length}")
-        };
-        assert!(
-            (*direction - DVec3::new(0.6, 0.0, -0.8)).length() < 1e-15,
-            "{length}: {direction}"
-        );
+        let scene = scene(&format!("<emitter type='directional'>{direction}</emitter>"));
+        let Emitter::Directional { direction, .. } = &scene.emitters[0] else { panic!("{length}") };
+        assert!((*direction - DVec3::new(0.6, 0.0, -0.8)).length() < 1e-15, "{length}: {direction}");
     }
 }
 
@@ -214,61 +130,16 @@ fn fields_of_view_are_mitsubas() {
     for (inside, width, height, degrees) in [
         ("", 768, 576, 38.1848),
         ("", 300, 100, 44.6327),
-        (
-            "<string name='focal_length' value='50mm'/>",
-            768,
-            576,
-            38.1848,
-        ),
-        (
-            "<string name='focal_length' value='50'/>",
-            768,
-            576,
-            38.1848,
-        ),
-        (
-            "<string name='focal_length' value='50 mm'/>",
-            768,
-            576,
-            38.1848,
-        ),
+        ("<string name='focal_length' value='50mm'/>", 768, 576, 38.1848),
+        ("<string name='focal_length' value='50'/>", 768, 576, 38.1848),
+        ("<string name='focal_length' value='50 mm'/>", 768, 576, 38.1848),
         ("<float name='fov' value='60'/>", 300, 100, 60.0),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='x'/>",
-            300,
-            100,
-            60.0,
-        ),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='larger'/>",
-            300,
-            100,
-            60.0,
-        ),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>",
-            300,
-            100,
-            120.0,
-        ),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='y'/>",
-            300,
-            100,
-            120.0,
-        ),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='diagonal'/>",
-            300,
-            100,
-            57.421,
-        ),
-        (
-            "<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>",
-            100,
-            300,
-            60.0,
-        ),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='x'/>", 300, 100, 60.0),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='larger'/>", 300, 100, 60.0),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>", 300, 100, 120.0),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='y'/>", 300, 100, 120.0),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='diagonal'/>", 300, 100, 57.421),
+        ("<float name='fov' value='60'/><string name='fov_axis' value='smaller'/>", 100, 300, 60.0),
     ] {
         let camera = camera(inside, width, height);
         let found = 2.0 * camera.tan_half_width.atan().to_degrees();
@@ -281,14 +152,7 @@ fn fields_of_view_are_mitsubas() {
 #[test]
 fn cameras_have_mitsubas_defaults() {
     let plain = camera("", 10, 10);
-    assert_eq!(
-        (
-            plain.near_clip,
-            plain.far_clip,
-            plain.principal_point_offset
-        ),
-        (0.01, 10000.0, [0.0; 2])
-    );
+    assert_eq!((plain.near_clip, plain.far_clip, plain.principal_point_offset), (0.01, 10000.0, [0.0; 2]));
     let shifted = camera(
         "<float name='principal_point_offset_y' value='-0.25'/><float name='shutter_open' value='0'/>
          <transform name='to_world'><scale x='-1'/></transform>",
@@ -301,20 +165,15 @@ fn cameras_have_mitsubas_defaults() {
 
 #[test]
 fn radiancemeters_look_along_z_or_a_direction() {
-    let meter =
-        |inside: &str| match scene(&format!("<sensor type='radiancemeter'>{inside}</sensor>"))
-            .sensors
-            .remove(0)
-        {
-            photonlab_scene::Sensor {
-                receiver: Receiver::Meter(Meter::Radiancemeter { origin, direction }),
-                ..
-            } => (origin, direction),
-            other => panic!("{other:?}"),
-        };
+    let meter = |inside: &str| match scene(&format!("<sensor type='radiancemeter'>{inside}</sensor>")).sensors.remove(0)
+    {
+        photonlab_scene::Sensor { receiver: Receiver::Meter(Meter::Radiancemeter { origin, direction }), .. } => {
+            (origin, direction)
+        }
+        other => panic!("{other:?}"),
+    };
     assert_eq!(meter(""), (DVec3::ZERO, DVec3::Z));
-    let stated =
-        "<point name='origin' value='1 2 3'/><vector name='direction' x='0' y='-9' z='0'/>";
+    let stated = "<point name='origin' value='1 2 3'/><vector name='direction' x='0' y='-9' z='0'/>";
     assert_eq!(meter(stated), (DVec3::new(1.0, 2.0, 3.0), DVec3::NEG_Y));
     let moved = "<transform name='to_world'><scale value='7'/><rotate y='1' angle='90'/><translate z='1'/></transform>";
     assert_eq!(meter(moved), (DVec3::Z, DVec3::X));

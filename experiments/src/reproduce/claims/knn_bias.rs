@@ -3,8 +3,7 @@
 use photonlab_gather::{AreaModel, Bandwidth, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::{
-    Axis, Comparison, Expected, FigureData, Point, Record, Replicates, Row, Series, SeriesKind,
-    Verdict, sidak_level,
+    Axis, Comparison, Expected, FigureData, Point, Record, Replicates, Row, Series, SeriesKind, Verdict, sidak_level,
 };
 use photonlab_reference::nearest_law::{Counted, uniform};
 use rayon::prelude::*;
@@ -33,10 +32,7 @@ struct Parameters {
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let parameters: Parameters = context.parameters()?;
     let confidence = 1.0 - sidak_level(1.0 - FAMILY, 2 * parameters.k.len());
-    let mut found = Findings {
-        seeds: vec![parameters.seed],
-        ..Findings::default()
-    };
+    let mut found = Findings { seeds: vec![parameters.seed], ..Findings::default() };
     let (mut naive_points, mut corrected_points, mut law_points) = (vec![], vec![], vec![]);
     let mut wide = false;
     for &k in &parameters.k {
@@ -46,28 +42,14 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         let corrected: Replicates = corrected.into_iter().collect();
         for (name, counted, values, points) in [
             ("k / (pi r_k^2)", Counted::All, &naive, &mut naive_points),
-            (
-                "(k - 1) / (pi r_k^2)",
-                Counted::AllButLast,
-                &corrected,
-                &mut corrected_points,
-            ),
+            ("(k - 1) / (pi r_k^2)", Counted::AllButLast, &corrected, &mut corrected_points),
         ] {
             let law = uniform(k as u32, counted);
             let measured = values.interval(confidence);
-            wide |= values
-                .half_width(confidence)
-                .is_none_or(|half| half > parameters.precision);
-            let expected = Expected::exact(
-                law.mean,
-                "Gamma law of the k-th distance in a Poisson field (catalogue A2)",
-            );
-            found.comparisons.push(Comparison::judge(
-                format!("{name}, k = {k}"),
-                "1",
-                expected,
-                measured,
-            ));
+            wide |= values.half_width(confidence).is_none_or(|half| half > parameters.precision);
+            let expected =
+                Expected::exact(law.mean, "Gamma law of the k-th distance in a Poisson field (catalogue A2)");
+            found.comparisons.push(Comparison::judge(format!("{name}, k = {k}"), "1", expected, measured));
             if let Some(m) = measured {
                 points.push(Point::measured(k as f64, m));
             }
@@ -75,11 +57,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         }
         law_points.push(Point::new(k as f64, uniform(k as u32, Counted::All).mean));
     }
-    let unbiased = Series {
-        label: "truth".into(),
-        kind: SeriesKind::Reference,
-        points: ends(&law_points, 1.0),
-    };
+    let unbiased = Series { label: "truth".into(), kind: SeriesKind::Reference, points: ends(&law_points, 1.0) };
     found.figures.push(FigureData {
         id: "mean".into(),
         title: "Mean of the k-nearest estimate in uniform light".into(),
@@ -91,16 +69,8 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         x: Axis::log("k, photons"),
         y: Axis::linear("mean estimate over truth"),
         series: vec![
-            Series {
-                label: "k over pi r_k^2, measured".into(),
-                kind: SeriesKind::Measured,
-                points: naive_points,
-            },
-            Series {
-                label: "k / (k - 1)".into(),
-                kind: SeriesKind::Predicted,
-                points: law_points,
-            },
+            Series { label: "k over pi r_k^2, measured".into(), kind: SeriesKind::Measured, points: naive_points },
+            Series { label: "k / (k - 1)".into(), kind: SeriesKind::Predicted, points: law_points },
             Series {
                 label: "k - 1 over pi r_k^2, measured".into(),
                 kind: SeriesKind::Measured,
@@ -109,25 +79,16 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             unbiased,
         ],
     });
-    let all_hold = found
-        .comparisons
-        .iter()
-        .all(|comparison| comparison.holds == Some(true));
+    let all_hold = found.comparisons.iter().all(|comparison| comparison.holds == Some(true));
     let (verdict, reason) = if wide {
-        (
-            Verdict::NotMeasured,
-            "the intervals are wider than the definition asks",
-        )
+        (Verdict::NotMeasured, "the intervals are wider than the definition asks")
     } else if all_hold {
         (
             Verdict::DoesNotHold,
             "as the paper words it the estimate is k / (k - 1) too high; with k - 1 photons it is unbiased",
         )
     } else {
-        (
-            Verdict::NotCertifiable,
-            "the measured means do not follow the k-nearest law",
-        )
+        (Verdict::NotCertifiable, "the measured means do not follow the k-nearest law")
     };
     Ok(context.record(found, verdict, reason))
 }
@@ -136,23 +97,15 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
 fn estimates(parameters: &Parameters, k: usize) -> anyhow::Result<Vec<f64>> {
     // A square that holds the k nearest with room to spare: the k-th lies beyond half of it never in practice.
     let half = 2.5 * (k as f64 / (std::f64::consts::PI * DENSITY)).sqrt() + 4.0 / DENSITY.sqrt();
-    let at = GatherPoint {
-        position: [0.0; 3],
-        normal: [0.0, 0.0, 1.0],
-    };
+    let at = GatherPoint { position: [0.0; 3], normal: [0.0, 0.0, 1.0] };
     (0..parameters.replicates)
         .into_par_iter()
         .map_init(Scratch::default, |scratch, replicate| {
             let mut stream = stream(parameters.seed, (k as u64) << 32 | replicate);
             let field = Field::uniform(DENSITY, [-half; 2], [half; 2], &mut stream);
             let map = PhotonMap::build(field.positions, field.photons, SplitRule::Median)?;
-            let bandwidth = Bandwidth::Nearest {
-                k,
-                max_radius: f64::INFINITY,
-            };
-            Ok(map
-                .gather(&at, bandwidth, AreaModel::Disc, &Tests::default(), scratch)
-                .irradiance[0])
+            let bandwidth = Bandwidth::Nearest { k, max_radius: f64::INFINITY };
+            Ok(map.gather(&at, bandwidth, AreaModel::Disc, &Tests::default(), scratch).irradiance[0])
         })
         .collect()
 }
@@ -170,10 +123,5 @@ fn row(k: usize, estimator: &str, values: &Replicates, law: f64) -> Row {
 
 fn ends(points: &[Point], y: f64) -> Vec<Point> {
     let line = |p: &Point| Point::new(p.x, y);
-    points
-        .first()
-        .into_iter()
-        .chain(points.last())
-        .map(line)
-        .collect()
+    points.first().into_iter().chain(points.last()).map(line).collect()
 }
