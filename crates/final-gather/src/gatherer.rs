@@ -70,8 +70,9 @@ impl<const C: usize> Gatherer<'_, C> {
             let ray = Ray::new(at.position, direction);
             let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used };
             let landing = segment::follow(self.world, self.lamps, &self.limits, start, stream);
-            if let Some((hit, emitted)) = landing.first_emission {
-                let balance = self.balance(&at, normal, direction, &hit);
+            if let Some((hit, emitted)) = landing.first_emission
+                && let Some(balance) = self.balance(&at, normal, direction, &hit)
+            {
                 let contribution = Light { irradiance: emitted * (PI * balance), ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
@@ -126,12 +127,13 @@ impl<const C: usize> Gatherer<'_, C> {
         Light { irradiance: sample.irradiance * balance, ..Light::default() }
     }
 
-    /// The balance heuristic's weight (Veach and Guibas 1995) of a lamp met by a ray drawn by cosine.
-    fn balance(&self, at: &SurfacePoint, normal: DVec3, direction: DVec3, hit: &Hit) -> f64 {
+    /// The balance heuristic's weight (Veach and Guibas 1995) of a lamp met by a ray drawn by cosine; `None` where lamp
+    /// sampling does all the work.
+    fn balance(&self, at: &SurfacePoint, normal: DVec3, direction: DVec3, hit: &Hit) -> Option<f64> {
         let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(normal));
-        let sampled =
-            lamp_pdf_solid_angle(self.world, self.lamps, hit.point.primitive, at.position, hit.point.position);
-        by_chance / (by_chance + sampled)
+        let lamp = hit.point.primitive;
+        let sampled = lamp_pdf_solid_angle(self.world, self.lamps, lamp, at.position, hit.point.position)?;
+        Some(by_chance / (by_chance + sampled))
     }
 
     /// Caustic light, straight from its map.

@@ -4,7 +4,7 @@ use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Ball, Ray, Surface, SurfacePoint, World};
 
-use crate::{LampKind, Lamps, lamp::point_on_surface, warp};
+use crate::{LampKind, Lamps, lamp::point_on_surface, spherical_rectangle::SphericalRectangle, warp};
 
 /// One draw of direct light that was found unblocked.
 #[derive(Clone, Copy, Debug)]
@@ -13,7 +13,9 @@ pub struct DirectSample<const C: usize> {
     pub direction: DVec3,
     /// Irradiance on the point's side, all densities divided out: its mean is the direct irradiance.
     pub irradiance: Colour<C>,
-    /// Density per solid angle of the draw, the choice of the lamp included; zero for lamps without extent.
+    /// Density per solid angle of the draw, the choice of the lamp included, where rays that meet the lamp by chance must
+    /// share the work with it; zero where the draw alone is good: lamps without extent, and lamps drawn evenly over the
+    /// solid angle under which they are seen, whose estimate is bounded.
     pub pdf_solid_angle: f64,
 }
 
@@ -51,63 +53,100 @@ pub fn sample_direct<const C: usize>(
             lit.then_some(DirectSample { direction: -*direction, irradiance, pdf_solid_angle: 0.0 })
         }
         LampKind::Area { primitive, radiance, .. } => {
-            let position = point_towards(world, *primitive, point.position, [xi[1], xi[2]])?;
+            let draw = AreaDraw::new(world, *primitive, point.position);
+            let position = draw.position([xi[1], xi[2]]);
             let offset = position - point.position;
             let distance = offset.length();
             let direction = offset / distance;
             let cosine = direction.dot(normal);
-            let pdf = chosen * primitive_pdf_solid_angle(world, *primitive, point.position, position);
+            let pdf = chosen * draw.pdf_solid_angle(position);
             let lit = cosine > 0.0 && pdf > 0.0 && visible(direction, distance, Some(*primitive));
             let irradiance = *radiance * (cosine / pdf);
-            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: pdf })
+            let pdf_solid_angle = if draw.is_even() { 0.0 } else { pdf };
+            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle })
         }
     }
 }
 
 /// Density per solid angle with which [`sample_direct`] draws the point `position` of an emitting primitive, seen from
-/// `from`; the choice of the lamp included.
+/// `from`, the choice of the lamp included; `None` where [`sample_direct`] leaves nothing to rays that meet the lamp by
+/// chance.
 pub fn lamp_pdf_solid_angle<const C: usize>(
     world: &World,
     lamps: &Lamps<C>,
     primitive: u32,
     from: DVec3,
     position: DVec3,
-) -> f64 {
-    lamps.of_primitive(primitive).map_or(0.0, |lamp| {
-        lamps.probability[lamp as usize] * primitive_pdf_solid_angle(world, primitive, from, position)
-    })
+) -> Option<f64> {
+    let lamp = lamps.of_primitive(primitive)?;
+    let draw = AreaDraw::new(world, primitive, from);
+    (!draw.is_even()).then(|| lamps.probability[lamp as usize] * draw.pdf_solid_angle(position))
 }
 
-/// A point of a primitive: by solid angle on spheres seen from outside, by area elsewhere.
-fn point_towards(world: &World, primitive: u32, from: DVec3, xi: [f64; 2]) -> Option<DVec3> {
-    let surface = &world.primitives[primitive as usize].surface;
-    if let Surface::Ball(ball) = surface
-        && let Some(cone) = cone_of(ball, from)
-    {
-        let axis = (ball.centre - from).normalize();
-        let ray = Ray::new(from, warp::square_to_uniform_cone(xi, axis, cone));
-        let near = ball.intersect(&ray, 0.0, false);
-        // A draw on the very rim may miss by rounding; the rim's nearest point stands for it.
-        let distance = near.unwrap_or_else(|| (ball.centre - from).dot(ray.direction));
-        return Some(ball.project(ray.at(distance)));
-    }
-    Some(point_on_surface(surface, xi))
+/// How a point of an emitting primitive is drawn as seen from somewhere.
+struct AreaDraw<'w> {
+    surface: &'w Surface,
+    world: &'w World,
+    primitive: u32,
+    from: DVec3,
+    way: Way,
 }
 
-fn primitive_pdf_solid_angle(world: &World, primitive: u32, from: DVec3, position: DVec3) -> f64 {
-    let surface = &world.primitives[primitive as usize].surface;
-    let offset = position - from;
-    let normal = world.point_on(primitive, position).normal;
-    let cosine = -offset.dot(normal);
-    if cosine <= 0.0 {
-        return 0.0;
+enum Way {
+    /// A sphere that shines outwards, from outside: evenly over its cone, whose 1 - cos is given.
+    Cone(f64),
+    /// A sphere that shines inwards: evenly by area, which from a point of the same sphere is even in irradiance.
+    Inside,
+    /// A rectangle: evenly over its solid angle.
+    Rectangle(SphericalRectangle),
+    /// Evenly by area, where nothing better is known.
+    Area,
+}
+
+impl<'w> AreaDraw<'w> {
+    fn new(world: &'w World, primitive: u32, from: DVec3) -> Self {
+        let surface = &world.primitives[primitive as usize].surface;
+        let way = match surface {
+            Surface::Ball(ball) if ball.inwards => Way::Inside,
+            Surface::Ball(ball) => cone_of(ball, from).map_or(Way::Area, Way::Cone),
+            Surface::Parallelogram(face) => SphericalRectangle::new(face, from).map_or(Way::Area, Way::Rectangle),
+        };
+        Self { surface, world, primitive, from, way }
     }
-    if let Surface::Ball(ball) = surface
-        && let Some(cone) = cone_of(ball, from)
-    {
-        return warp::uniform_cone_pdf_solid_angle(cone);
+
+    /// True if the estimate of the irradiance from such draws is bounded by the lamp's radiance times pi.
+    fn is_even(&self) -> bool {
+        matches!(self.way, Way::Cone(_) | Way::Rectangle(_))
     }
-    offset.length_squared() * offset.length() / (cosine * surface.area())
+
+    fn position(&self, xi: [f64; 2]) -> DVec3 {
+        match (&self.way, self.surface) {
+            (Way::Rectangle(rectangle), _) => rectangle.point(xi),
+            (Way::Cone(cone), Surface::Ball(ball)) => {
+                let axis = (ball.centre - self.from).normalize();
+                let ray = Ray::new(self.from, warp::square_to_uniform_cone(xi, axis, *cone));
+                // A draw on the very rim may miss by rounding; the rim's nearest point stands for it.
+                let near = ball.intersect(&ray, 0.0, false);
+                let distance = near.unwrap_or_else(|| (ball.centre - self.from).dot(ray.direction));
+                ball.project(ray.at(distance))
+            }
+            (_, surface) => point_on_surface(surface, xi),
+        }
+    }
+
+    /// Zero where the lamp shows its dark side.
+    fn pdf_solid_angle(&self, position: DVec3) -> f64 {
+        let offset = position - self.from;
+        let cosine = -offset.dot(self.world.point_on(self.primitive, position).normal);
+        if cosine <= 0.0 {
+            return 0.0;
+        }
+        match &self.way {
+            Way::Cone(cone) => warp::uniform_cone_pdf_solid_angle(*cone),
+            Way::Rectangle(rectangle) => 1.0 / rectangle.solid_angle,
+            Way::Inside | Way::Area => offset.length_squared() * offset.length() / (cosine * self.surface.area()),
+        }
+    }
 }
 
 /// 1 - cos of the half-angle under which an outward-shining sphere is seen from outside.

@@ -8,6 +8,7 @@ mod direct;
 mod lamp;
 mod plan;
 mod scatter;
+mod spherical_rectangle;
 mod stream;
 pub mod warp;
 

@@ -53,7 +53,7 @@ mod tests {
     #[test]
     fn quadrants_agree_with_polar_integration() {
         for a in [0.0, 0.25, 0.5, 0.9, 1.2] {
-            for b in [0.0, 0.3, 0.7071, 0.8, 1.0] {
+            for b in [0.0, 0.3, 0.65, 0.8, 1.0] {
                 let brute = polar::area(&[(0.0, a), (0.5 * PI, b)]);
                 assert!((corner(a, b) - brute).abs() < 1e-8, "{a} {b}: {} {brute}", corner(a, b));
             }
