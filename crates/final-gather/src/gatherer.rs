@@ -42,6 +42,8 @@ pub struct Gatherer<'w, const C: usize> {
     pub maps: Option<GatherMaps<'w, C>>,
     /// When a path ends early.
     pub limits: EyeLimits,
+    /// False if a ray from a diffuse point can bring nothing but what lamps and the caustic map give: none is sent then.
+    pub looks_around: bool,
 }
 
 impl<const C: usize> Gatherer<'_, C> {
@@ -62,7 +64,7 @@ impl<const C: usize> Gatherer<'_, C> {
         for bounce in 0.. {
             light.add(&self.lamps_at(&at, normal, used, stream).weighted(weight));
             light.add(&self.caustics_at(&at, normal, used, scratch).weighted(weight));
-            if !self.looks_around(used) {
+            if !self.looks_around || !self.limits.allows(used + 1) {
                 break;
             }
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
@@ -103,11 +105,6 @@ impl<const C: usize> Gatherer<'_, C> {
             (at, normal) = (hit.point, hit.facing_normal());
         }
         light
-    }
-
-    /// True if a ray from a point with `used` segments before it can still bring light that is not sampled otherwise.
-    fn looks_around(&self, used: u32) -> bool {
-        self.limits.allows(used + 1)
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.

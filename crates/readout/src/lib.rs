@@ -7,7 +7,7 @@
 
 mod cells;
 mod identity;
-mod kronecker;
+mod lattice;
 mod look;
 mod map_file;
 mod maps;

@@ -9,7 +9,7 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{Lamps, Purpose, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
-use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, kronecker, maps::PassMaps};
+use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps};
 
 /// Looks into one pass's light.
 pub(crate) struct Look<'p, const C: usize> {
@@ -17,6 +17,8 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) lamps: &'p Lamps<C>,
     pub(crate) settings: &'p Settings,
     pub(crate) maps: &'p PassMaps<C>,
+    /// False if no ray from a diffuse point can bring light of its own.
+    pub(crate) looks_around: bool,
     pub(crate) pass: u32,
     /// Points per cell in this pass.
     pub(crate) samples: u64,
@@ -32,7 +34,7 @@ pub(crate) struct Sample<const C: usize> {
 
 impl<const C: usize> Look<'_, C> {
     /// The offsets of a cell's quasi-random points in this pass.
-    pub(crate) fn shift(&self, number: usize) -> [f64; kronecker::DIMENSIONS] {
+    pub(crate) fn shift(&self, number: usize) -> [f64; lattice::DIMENSIONS] {
         let mut stream = Stream::new(self.settings.seed, Purpose::Offsets, self.pass, number as u64);
         std::array::from_fn(|_| stream.next())
     }
@@ -43,13 +45,13 @@ impl<const C: usize> Look<'_, C> {
         cell: &Cell,
         number: usize,
         sample: u64,
-        shift: &[f64; kronecker::DIMENSIONS],
+        shift: &[f64; lattice::DIMENSIONS],
         scratch: &mut Scratch,
     ) -> Sample<C> {
         let rays = u64::from(self.settings.gather_rays);
         let first = (number as u64 * self.samples + sample) * (rays + 1);
         let mut eye = self.stream(first);
-        let [x, y, z, ..] = kronecker::point(sample * rays, shift);
+        let [x, y, z, ..] = lattice::point(sample * rays, shift);
         let (start, reach) = match &cell.target {
             Target::Patch { shape, film } => {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
@@ -92,13 +94,19 @@ impl<const C: usize> Look<'_, C> {
         let rays = self.settings.gather_rays;
         let mut light = Light::default();
         for ray in 0..rays {
-            let [_, _, _, rest @ ..] = kronecker::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
+            let [_, _, _, rest @ ..] = lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
             let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix(rest);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {
                     let maps =
                         matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps());
-                    let gatherer = Gatherer { world: self.world, lamps: self.lamps, maps, limits: self.limits() };
+                    let gatherer = Gatherer {
+                        world: self.world,
+                        lamps: self.lamps,
+                        maps,
+                        limits: self.limits(),
+                        looks_around: self.looks_around,
+                    };
                     gatherer.irradiance(at, normal, used, &mut stream, scratch)
                 }
                 Method::Nearest { .. } | Method::Radius { .. } => {
@@ -159,5 +167,5 @@ impl<const C: usize> Look<'_, C> {
 struct Seed<'s> {
     first: u64,
     sample: u64,
-    shift: &'s [f64; kronecker::DIMENSIONS],
+    shift: &'s [f64; lattice::DIMENSIONS],
 }

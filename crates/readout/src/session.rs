@@ -97,6 +97,12 @@ impl<const C: usize> Session<'_, C> {
         }
     }
 
+    /// True if a ray from a diffuse point can bring light that neither lamp sampling nor the caustic map gives.
+    fn looks_around(&self) -> bool {
+        let by_paths = self.settings.method == Method::Path && self.needs.caustic;
+        self.needs.indirect || by_paths || !self.lamps.are_sampled_alone(self.world)
+    }
+
     /// Reads all cells.
     pub fn run(
         &self,
@@ -175,6 +181,7 @@ impl<const C: usize> Session<'_, C> {
             lamps: self.lamps,
             settings: &self.settings,
             maps: &maps,
+            looks_around: self.looks_around(),
             pass: number as u32,
             samples,
         };

@@ -62,7 +62,7 @@ pub fn sample_direct<const C: usize>(
             let pdf = chosen * draw.pdf_solid_angle(position);
             let lit = cosine > 0.0 && pdf > 0.0 && visible(direction, distance, Some(*primitive));
             let irradiance = *radiance * (cosine / pdf);
-            let pdf_solid_angle = if draw.is_even() { 0.0 } else { pdf };
+            let pdf_solid_angle = if is_drawn_alone(world, *primitive) { 0.0 } else { pdf };
             lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle })
         }
     }
@@ -79,8 +79,17 @@ pub fn lamp_pdf_solid_angle<const C: usize>(
     position: DVec3,
 ) -> Option<f64> {
     let lamp = lamps.of_primitive(primitive)?;
-    let draw = AreaDraw::new(world, primitive, from);
-    (!draw.is_even()).then(|| lamps.probability[lamp as usize] * draw.pdf_solid_angle(position))
+    (!is_drawn_alone(world, primitive))
+        .then(|| lamps.probability[lamp as usize] * AreaDraw::new(world, primitive, from).pdf_solid_angle(position))
+}
+
+/// True for emitting primitives whose direct light is drawn evenly over the solid angle under which they are seen: the
+/// estimate is bounded and leaves nothing to rays that meet the lamp by chance.
+pub(crate) fn is_drawn_alone(world: &World, primitive: u32) -> bool {
+    match &world.primitives[primitive as usize].surface {
+        Surface::Parallelogram(face) => face.is_rectangle(),
+        Surface::Ball(ball) => !ball.inwards,
+    }
 }
 
 /// How a point of an emitting primitive is drawn as seen from somewhere.
@@ -99,7 +108,7 @@ enum Way {
     Inside,
     /// A rectangle: evenly over its solid angle.
     Rectangle(SphericalRectangle),
-    /// Evenly by area, where nothing better is known.
+    /// Evenly by area: faces that are no rectangles, and rectangles under next to no solid angle.
     Area,
 }
 
@@ -112,11 +121,6 @@ impl<'w> AreaDraw<'w> {
             Surface::Parallelogram(face) => SphericalRectangle::new(face, from).map_or(Way::Area, Way::Rectangle),
         };
         Self { surface, world, primitive, from, way }
-    }
-
-    /// True if the estimate of the irradiance from such draws is bounded by the lamp's radiance times pi.
-    fn is_even(&self) -> bool {
-        matches!(self.way, Way::Cone(_) | Way::Rectangle(_))
     }
 
     fn position(&self, xi: [f64; 2]) -> DVec3 {

@@ -161,6 +161,15 @@ impl<const C: usize> Lamps<C> {
         self.lamps.len() - 1
     }
 
+    /// True if direct light is found by drawing lamps alone, with no help from rays that meet one by chance: lamps without
+    /// extent, rectangles, and spheres that shine outwards.
+    pub fn are_sampled_alone(&self, world: &World) -> bool {
+        self.lamps.iter().all(|lamp| match lamp.kind {
+            LampKind::Point { .. } | LampKind::Directional { .. } => true,
+            LampKind::Area { primitive, .. } => crate::direct::is_drawn_alone(world, primitive),
+        })
+    }
+
     /// Sum of all lamps' flux.
     pub fn total_flux(&self) -> Colour<C> {
         self.lamps.iter().fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)

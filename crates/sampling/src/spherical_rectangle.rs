@@ -31,7 +31,7 @@ impl SphericalRectangle {
     /// `None` for a face that is no rectangle, or one seen under next to no solid angle.
     pub(crate) fn new(face: &Parallelogram, from: DVec3) -> Option<Self> {
         let (half_x, half_y) = (face.edge_u.length(), face.edge_v.length());
-        if face.edge_u.dot(face.edge_v).abs() > 1e-9 * half_x * half_y {
+        if !face.is_rectangle() {
             return None;
         }
         let (x_axis, y_axis) = (face.edge_u / half_x, face.edge_v / half_y);
@@ -118,7 +118,8 @@ mod tests {
                     squares += value * value;
                 }
                 let mean = sum / draws as f64;
-                let error = ((squares / draws as f64 - mean * mean).max(0.0) / draws as f64).sqrt() + 1e-5 * by_area.abs();
+                let error =
+                    ((squares / draws as f64 - mean * mean).max(0.0) / draws as f64).sqrt() + 1e-5 * by_area.abs();
                 assert!((mean - by_area).abs() < 4.5 * error, "{from}: {mean} against {by_area}, error {error}");
             }
         }

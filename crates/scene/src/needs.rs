@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Channels;
 
-use crate::description::{Bsdf, Geometry, Scene};
+use crate::description::{Bsdf, Geometry, Meter, Receiver, Scene};
 
 /// One thing that is modelled, or left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// Derives the needs from the scene's lamps and coatings alone; sensors do not matter.
+    /// Derives the needs from the scene's lamps, coatings and meters.
     pub fn of(scene: &Scene) -> Self {
         let channels = scene.channels();
         let specular = first_specular(scene);
@@ -61,9 +61,10 @@ impl Needs {
         }
         match indirect.filter(|_| needs.indirect) {
             Some(reason) => needs.model("surface map", &reason),
-            None => {
-                needs.leave_out("surface map", "no light that a surface reflects diffusely can reach another surface")
-            }
+            None => needs.leave_out(
+                "surface map",
+                "no light that a surface reflects diffusely can reach a surface that is read",
+            ),
         }
         needs.leave_out("volume map", "the scene has no medium");
         needs
@@ -99,12 +100,19 @@ fn reflects_diffusely(bsdf: &Bsdf) -> bool {
     }
 }
 
-/// Why diffusely reflected light can reach a surface that reads it, if it can.
+/// Why diffusely reflected light can reach a surface that is read, if it can.
 fn indirect_reason(scene: &Scene) -> Option<String> {
-    let reflecting: Vec<_> = scene.shapes.iter().filter(|shape| reflects_diffusely(&shape.bsdf)).collect();
-    let first = reflecting.first()?;
-    // One flat or convex face alone cannot light itself: its reflected light needs another surface to return from or
-    // to be read on.
-    let alone = scene.shapes.len() == 1 && matches!(first.geometry, Geometry::Rectangle { .. });
-    (!alone).then(|| format!("`{}` reflects diffusely and its light can reach a surface", first.id))
+    let reflecting: Vec<usize> =
+        (0..scene.shapes.len()).filter(|&index| reflects_diffusely(&scene.shapes[index].bsdf)).collect();
+    let &first = reflecting.first()?;
+    // One flat face cannot light itself. If nothing else reflects or is metered, its light is never seen again.
+    let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. });
+    let metered_elsewhere = scene.sensors.iter().any(|sensor| match sensor.receiver {
+        Receiver::Meter(Meter::Irradiancemeter { shape }) => shape != first,
+        _ => false,
+    });
+    let alone = reflecting.len() == 1 && flat && first_specular(scene).is_none() && !metered_elsewhere;
+    (!alone).then(|| {
+        format!("`{}` reflects diffusely, and its light can reach a surface that is read", scene.shapes[first].id)
+    })
 }

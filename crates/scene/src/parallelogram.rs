@@ -46,6 +46,11 @@ impl Parallelogram {
         4.0 * self.edge_u.cross(self.edge_v).length()
     }
 
+    /// True if its edges meet at right angles.
+    pub fn is_rectangle(&self) -> bool {
+        self.edge_u.dot(self.edge_v).abs() <= 1e-9 * self.edge_u.length() * self.edge_v.length()
+    }
+
     /// The point at (u, v) in [0, 1]^2.
     pub fn point(&self, uv: DVec2) -> DVec3 {
         self.centre + (2.0 * uv.x - 1.0) * self.edge_u + (2.0 * uv.y - 1.0) * self.edge_v
