@@ -1,7 +1,7 @@
 //! `photonlab render`: an image with its error layers.
 
 use photonlab_measure::student_t_quantile;
-use photonlab_readout::{Cell, Outcome, Session, Source};
+use photonlab_readout::{Cell, ErrorOver, Outcome, Session, Source};
 use photonlab_scene::{Film, Receiver};
 
 use crate::{
@@ -9,7 +9,7 @@ use crate::{
     fixed_command::fixed_command,
     image::{Image, Layers},
     loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors},
-    measure::{doubt, warn_of_trapped_light},
+    measure::{doubt, warn},
     progress::Progress,
     system,
 };
@@ -62,11 +62,11 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
-    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: true };
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Image };
     let schedule = schedule(&session, &options.wanted(), cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
-    warn_of_trapped_light(outcome.ledger.as_ref());
+    warn(&outcome);
     if let Some(doubt) = doubt(&world.scene, &settings, needs) {
         eprintln!("warning: this image is not certified: {doubt}");
     }

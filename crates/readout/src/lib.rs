@@ -21,6 +21,6 @@ pub use identity::scene_identity;
 pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};
 pub use method::{Direct, Method, Settings};
-pub use outcome::{CellResult, Outcome};
+pub use outcome::{CellResult, ErrorOver, Outcome};
 pub use schedule::{Demands, Ends, Schedule, Wanted};
 pub use session::{Observer, ReadError, Session, Source};

@@ -110,7 +110,7 @@ impl<const C: usize> Look<'_, C> {
                     gatherer.irradiance(at, normal, used, &mut stream, scratch)
                 }
                 Method::Nearest { .. } | Method::Radius { .. } => {
-                    let mut one = self.from_map(at, normal, used, scratch);
+                    let mut one = self.read_map(at, normal, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
                         let direct = sample_direct(self.world, self.lamps, at, normal, xi);
@@ -124,7 +124,7 @@ impl<const C: usize> Look<'_, C> {
     }
 
     /// The density estimate at the point itself.
-    fn from_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
+    fn read_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };

@@ -11,10 +11,9 @@ use photonlab_trace::{Ledger, TraceError};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, CellResult, Demands, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
+    Cell, CellResult, Demands, ErrorOver, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
     look::{Look, Sample},
     maps::{PassMaps, Radii},
-    outcome::relative_error,
     trace_pass,
 };
 
@@ -22,6 +21,8 @@ use crate::{
 const BLOCK: u64 = 256;
 /// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
 const PASSES_BEFORE_STOPPING: u64 = 16;
+/// Passes before a target is given up as out of reach.
+const PASSES_BEFORE_GIVING_UP: u64 = 64;
 /// Growth of the number of passes between two looks at the error. Every look is a chance to stop on a lucky error bar.
 const LOOK_GROWTH: f64 = 1.1;
 /// A run that only its error could end stops here and says so.
@@ -70,8 +71,8 @@ pub struct Session<'w, const C: usize> {
     pub settings: Settings,
     /// Two-sided confidence of the intervals that may end the run.
     pub confidence: f64,
-    /// True if the error is the RMS over all cells over their mean (an image), else the worst cell's.
-    pub rms: bool,
+    /// How the cells' errors make the one that may end the run.
+    pub error_over: ErrorOver,
 }
 
 impl<const C: usize> Session<'_, C> {
@@ -126,7 +127,7 @@ impl<const C: usize> Session<'_, C> {
             longest = longest.max(begun.elapsed());
             let done = run.passes;
             let looks = done >= next_look;
-            let error = looks.then(|| relative_error(&run.cells, self.confidence, self.rms)).flatten();
+            let error = looks.then(|| self.error_over.of(&run.cells, self.confidence)).flatten();
             observer.pass_done(done, start.elapsed(), error);
             if looks {
                 next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
@@ -134,6 +135,9 @@ impl<const C: usize> Session<'_, C> {
             let reached = schedule.ends.target_error.zip(error).is_some_and(|(target, error)| error <= target);
             let stopped = if reached {
                 Some(Stopped::Target)
+            } else if looks && self.target_is_out_of_reach(&run, schedule.ends.target_error) {
+                run.out_of_reach = true;
+                Some(Stopped::Count)
             } else if passes.unwrap_or(MOST_PASSES) <= done {
                 Some(Stopped::Count)
             } else if schedule.ends.time_limit.is_some_and(|limit| start.elapsed() + longest > limit) {
@@ -145,6 +149,21 @@ impl<const C: usize> Session<'_, C> {
                 return Ok(run.finish(self, stopped));
             }
         }
+    }
+
+    /// True if more passes cannot bring the error down to the target: the bias of a radius that does not shrink, or light
+    /// gathered across an edge, or nothing found at all, is beyond it already.
+    fn target_is_out_of_reach(&self, run: &Run<C>, target: Option<f64>) -> bool {
+        let Some(target) = target else { return false };
+        let shrinks = match self.settings.method {
+            Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
+            Method::Nearest { .. } => false,
+            Method::Path => true,
+        };
+        // What shrinks is given more passes before it is given up.
+        let patience = if shrinks { 16 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
+        run.passes >= patience
+            && self.error_over.floor_of(&run.cells, self.confidence).is_none_or(|floor| floor > target)
     }
 
     /// Divides the passes, after a pilot whose work is not used, so that enough of them end within the time limit.
@@ -242,6 +261,7 @@ struct Run<const C: usize> {
     photons: u64,
     passes: u64,
     samples: u64,
+    out_of_reach: bool,
 }
 
 impl<const C: usize> Run<C> {
@@ -254,6 +274,7 @@ impl<const C: usize> Run<C> {
             photons: 0,
             passes: 0,
             samples: 0,
+            out_of_reach: false,
         }
     }
 
@@ -276,6 +297,7 @@ impl<const C: usize> Run<C> {
             passes: self.passes,
             samples: self.samples,
             stopped,
+            out_of_reach: self.out_of_reach,
             channels: session.needs.channels,
         }
     }

@@ -69,6 +69,7 @@ impl Stream {
     }
 
     /// The next number in (0, 1).
+    #[expect(clippy::should_implement_trait, reason = "an iterator's next may end; a stream's does not")]
     #[inline]
     pub fn next(&mut self) -> f64 {
         if self.prefix_left > 0 {
