@@ -13,6 +13,7 @@ mod map_file;
 mod maps;
 mod method;
 mod outcome;
+mod probe;
 mod schedule;
 mod session;
 

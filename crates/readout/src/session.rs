@@ -5,15 +5,17 @@ use std::time::{Duration, Instant};
 use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
-use photonlab_sampling::{Lamps, PlanError};
+use photonlab_photometry::Colour;
+use photonlab_sampling::{Lamps, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Ledger, TraceError};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, CellResult, Demands, ErrorOver, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
+    Cell, CellResult, Demands, Direct, ErrorOver, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
     look::{Look, Sample},
     maps::{PassMaps, Radii},
+    probe::probe,
     trace_pass,
 };
 
@@ -219,14 +221,34 @@ impl<const C: usize> Session<'_, C> {
                 sum
             })
             .collect();
-        for (cell, parts) in run.cells.iter_mut().zip(found.chunks(blocks as usize)) {
+        let probed = self.probes(cells, number as u32, samples);
+        for ((cell, parts), probed) in run.cells.iter_mut().zip(found.chunks(blocks as usize)).zip(probed) {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
-            cell.push(&light.over(samples as f64), light.photons, parts.iter().all(|part| part.dark));
+            let mut mean = light.over(samples as f64);
+            mean.irradiance += probed;
+            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
         }
         run.passes += 1;
         run.samples += samples;
         Ok(())
+    }
+
+    /// What rays from point lamps add to each cell, where direct light is sampled.
+    fn probes(&self, cells: &[Cell], pass: u32, points: u64) -> Vec<Colour<C>> {
+        let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
+        if from_map && self.settings.direct == Direct::Photons {
+            return vec![Colour::ZERO; cells.len()];
+        }
+        let of_sensors = cells.chunk_by(|a, b| a.sensor == b.sensor);
+        of_sensors
+            .flat_map(|of_sensor| {
+                let number = of_sensor[0].sensor as u64;
+                probe(self.world, self.lamps, of_sensor, points, |ray| {
+                    Stream::new(self.settings.seed, Purpose::Probes, pass, number << 44 | ray)
+                })
+            })
+            .collect()
     }
 
     fn maps(

@@ -10,6 +10,8 @@ pub enum Purpose {
     Readout = 1,
     /// Offsets of quasi-random point sets; the index is the cell's.
     Offsets = 2,
+    /// Rays from lamps towards a meter; the index counts cells and rays.
+    Probes = 4,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }

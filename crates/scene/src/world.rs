@@ -249,9 +249,24 @@ impl World {
         self.point_on(primitive, position)
     }
 
-    /// Area of a shape in square metres.
-    pub fn shape_area(&self, shape: usize) -> f64 {
-        self.primitives_of(shape).map(|p| self.primitives[p as usize].surface.area()).sum()
+    /// Area in square metres of the cells in a row of a shape's (u, v) square divided into columns x rows.
+    pub fn cell_area(&self, shape: usize, row: u32, cells: [u32; 2]) -> f64 {
+        let of_surface = |p: u32| match &self.primitives[p as usize].surface {
+            Surface::Parallelogram(face) => face.area() / f64::from(cells[1]),
+            Surface::Ball(ball) => {
+                let polar = |row: u32| (std::f64::consts::PI * f64::from(row) / f64::from(cells[1])).cos();
+                ball.area() * 0.5 * (polar(row) - polar(row + 1))
+            }
+        };
+        self.primitives_of(shape).map(of_surface).sum::<f64>() / f64::from(cells[0])
+    }
+
+    /// (u, v) of a point on its primitive.
+    pub fn uv(&self, point: &SurfacePoint) -> DVec2 {
+        match &self.primitives[point.primitive as usize].surface {
+            Surface::Parallelogram(face) => face.uv(point.position),
+            Surface::Ball(ball) => ball.uv(point.position),
+        }
     }
 
     /// The surface point of a primitive at a position on it.
