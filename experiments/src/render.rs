@@ -102,6 +102,8 @@ fn layers<const C: usize>(
         value: image(&|cell, c| outcome.cells[cell].value[c].mean().unwrap_or(0.0)),
         std_error: image(&|cell, c| outcome.cells[cell].value[c].std_error().unwrap_or(f64::NAN)),
         bias_bound: image(&|cell, c| match quantile {
+            // Nothing found is not dark: no bound is known there.
+            Some(_) if outcome.cells[cell].found_nothing() => f64::INFINITY,
             Some(_) => outcome.cells[cell].bias_bound(c, confidence),
             None => f64::NAN,
         }),
