@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod cells;
+mod checked_file;
 mod identity;
 mod lattice;
 mod look;
@@ -14,6 +15,7 @@ mod maps;
 mod method;
 mod outcome;
 mod probe;
+mod run;
 mod schedule;
 mod session;
 

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use photonlab_photometry::Colour;
-use photonlab_sampling::{LampKind, Lamps, Purpose, Stream};
+use photonlab_sampling::{LampKind, Lamps, Stream};
 use photonlab_scene::World;
 use rayon::prelude::*;
 

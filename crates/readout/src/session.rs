@@ -8,14 +8,15 @@ use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Lamps, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
-use photonlab_trace::{Ledger, TraceError};
+use photonlab_trace::TraceError;
 use rayon::prelude::*;
 
 use crate::{
-    Cell, CellResult, Demands, Direct, ErrorOver, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
+    Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings,
     look::{Look, Sample},
-    maps::{PassMaps, Radii},
+    maps::PassMaps,
     probe::probe,
+    run::Run,
     trace_pass,
 };
 
@@ -272,55 +273,5 @@ impl<const C: usize> Session<'_, C> {
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
-    }
-}
-
-struct Run<const C: usize> {
-    cells: Vec<CellResult<C>>,
-    ledger: Option<Ledger<C>>,
-    radii: Radii,
-    radius: f64,
-    photons: u64,
-    passes: u64,
-    samples: u64,
-    out_of_reach: bool,
-}
-
-impl<const C: usize> Run<C> {
-    fn new(cells: usize) -> Self {
-        Self {
-            cells: vec![CellResult::default(); cells],
-            ledger: None,
-            radii: Radii::default(),
-            radius: 0.0,
-            photons: 0,
-            passes: 0,
-            samples: 0,
-            out_of_reach: false,
-        }
-    }
-
-    fn book(&mut self, pass: &PassPhotons<C>) {
-        self.photons += pass.emitted;
-        match &mut self.ledger {
-            Some(ledger) => ledger.add(&pass.ledger),
-            None => self.ledger = Some(pass.ledger.clone()),
-        }
-    }
-
-    fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
-        let per_pass = 1.0 / self.passes as f64;
-        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
-        Outcome {
-            ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
-            radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
-            cells: self.cells,
-            photons: self.photons,
-            passes: self.passes,
-            samples: self.samples,
-            stopped,
-            out_of_reach: self.out_of_reach,
-            channels: session.needs.channels,
-        }
     }
 }
