@@ -12,7 +12,7 @@ use crate::{
     Failure, by_channels,
     command::{self, Options},
     fixed_command::fixed_command,
-    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors},
+    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors, wanted},
     progress::Progress,
     system,
 };
@@ -52,7 +52,7 @@ fn run<const C: usize>(
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Worst };
-    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);

@@ -8,7 +8,7 @@ use crate::{
     Failure, by_channels, command,
     fixed_command::fixed_command,
     image::{Image, Layers},
-    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors},
+    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors, wanted},
     measure::{doubt, warn},
     progress::Progress,
     system,
@@ -63,7 +63,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
     let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Image };
-    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
