@@ -18,7 +18,7 @@ use crate::{
 };
 
 /// A reading of which more than this share was gathered across an edge is not certified.
-const RESOLVED: f64 = 1e-6;
+const RESOLVED: f64 = 1e-3;
 
 /// Measures and writes the result to standard output.
 pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {

@@ -72,7 +72,10 @@ impl<const C: usize> Look<'_, C> {
             let found = self.irradiance(&hit.point, hit.facing_normal(), landing.segments, seed, scratch);
             light.add(&found.weighted(reflectance * weight * (1.0 / PI)));
         }
-        Sample { light, dark: diffuse.is_none() && emitted.is_zero() }
+        Sample {
+            light,
+            dark: emitted.is_zero() && !diffuse.is_some_and(|_| self.limits().allows(landing.segments + 1)),
+        }
     }
 
     fn stream(&self, index: u64) -> Stream {

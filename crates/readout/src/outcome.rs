@@ -5,6 +5,11 @@ use photonlab_measure::{Replicates, Stopped, student_t_quantile};
 use photonlab_photometry::Channels;
 use photonlab_trace::Ledger;
 
+/// A ball at the corner of a flat surface holds a quarter of its disc, so an estimate made there lacks up to three times
+/// itself (catalogue B2). Narrower pieces of surface can lack more: readings that rest on such estimates for more than a
+/// trifle are not certified.
+const MISSING_AT_MOST: f64 = 3.0;
+
 /// One cell's values over the passes.
 #[derive(Clone, Debug)]
 pub struct CellResult<const C: usize> {
@@ -44,13 +49,13 @@ impl<const C: usize> CellResult<C> {
         !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
     }
 
-    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and all that was
-    /// gathered across edges.
+    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and three times
+    /// what was gathered across edges.
     pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
         let bias = &self.bias[channel];
         bias.mean().unwrap_or(0.0).abs()
             + bias.half_width(confidence).unwrap_or(0.0)
-            + self.unresolved[channel].mean().unwrap_or(0.0).abs()
+            + MISSING_AT_MOST * self.unresolved[channel].mean().unwrap_or(0.0).abs()
     }
 
     /// Half the interval's length of a channel; `None` below two passes.
@@ -102,7 +107,8 @@ impl ErrorOver {
     pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], confidence: f64) -> Option<f64> {
         self.combine(cells, confidence, |cell, c, t| {
             let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
-            let known = cell.bias[c].mean().unwrap_or(0.0).abs() + cell.unresolved[c].mean().unwrap_or(0.0).abs();
+            let known = cell.bias[c].mean().unwrap_or(0.0).abs()
+                + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs();
             t * noise + known
         })
     }
