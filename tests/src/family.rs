@@ -36,7 +36,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("integrating sphere, bounces in colour", 2),
     ("reflected flux, cube", 1),
     ("reflected flux, sphere", 3),
-    ("reflected flux, Cornell box", 24),
+    ("reflected flux, Cornell box", 21),
     ("reflected flux, ball lens", 1),
     ("roulette", 8),
     ("trapped light", 3),
