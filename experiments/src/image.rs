@@ -7,7 +7,7 @@ use exr::prelude::{
     AnyChannel, AnyChannels, Encoding, FlatSamples, Image as ExrImage, Layer, LayerAttributes, Text, WritableImage,
 };
 
-use crate::Failure;
+use crate::{Failure, exr_header::sort_attributes};
 
 /// Three channels per pixel, row 0 on top.
 pub(crate) struct Image {
@@ -63,7 +63,9 @@ impl Layers {
             Layer::new(size, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
         let mut bytes = Cursor::new(Vec::new());
         ExrImage::from_layer(layer).write().non_parallel().to_buffered(&mut bytes)?;
-        Ok(bytes.into_inner())
+        let mut bytes = bytes.into_inner();
+        sort_attributes(&mut bytes)?;
+        Ok(bytes)
     }
 
     /// Tone-mapped for looking at: exposed so that the brightest percent saturates, sRGB curve.

@@ -5,6 +5,7 @@
 
 mod chosen;
 mod command;
+mod exr_header;
 mod failure;
 mod false_colour;
 mod fixed_command;

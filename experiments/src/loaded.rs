@@ -102,6 +102,19 @@ pub(crate) fn open_map<const C: usize>(
     Ok(Some(MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?))
 }
 
+/// What was asked for, with the passes that a saved map has; more than it has are refused.
+pub(crate) fn wanted<const C: usize>(options: &Options, map: Option<&MapFile<C>>) -> Result<Wanted, Failure> {
+    let wanted = options.wanted();
+    let Some(map) = map else { return Ok(wanted) };
+    let has = map.passes.len() as u64;
+    match wanted.passes {
+        Some(asked) if asked > has => {
+            Err(Failure::usage(format!("--passes {asked}: the map has {has}; ask for fewer or build a larger map")))
+        }
+        asked => Ok(Wanted { passes: Some(asked.unwrap_or(has)), ..wanted }),
+    }
+}
+
 /// The schedule of a session, with its default count named on standard error.
 pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());

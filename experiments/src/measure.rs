@@ -4,7 +4,7 @@ use std::{io::Write, time::Instant};
 
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass};
-use photonlab_readout::{Cell, Method, Outcome, Session, Settings, Source};
+use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source};
 use photonlab_scene::{Needs, Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
 
@@ -12,7 +12,7 @@ use crate::{
     Failure, by_channels,
     command::{self, Options},
     fixed_command::fixed_command,
-    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors},
+    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors, wanted},
     progress::Progress,
     system,
 };
@@ -51,11 +51,11 @@ fn run<const C: usize>(
     let mut settings = options.settings(&loaded.world.scene)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
-    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: false };
-    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Worst };
+    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
-    warn_of_trapped_light(outcome.ledger.as_ref());
+    warn(&outcome);
     Ok(Measurement {
         scene: arguments.scene.scene.display().to_string(),
         method: settings.method.name().into(),
@@ -73,9 +73,16 @@ fn run<const C: usize>(
     })
 }
 
-/// Says that light was given up because nothing absorbs it.
-pub(crate) fn warn_of_trapped_light<const C: usize>(ledger: Option<&Ledger<C>>) {
-    if let Some(ledger) = ledger.filter(|ledger| ledger.trapped_paths > 0) {
+/// Says what the readings alone do not: light given up because nothing absorbs it, a target that cannot be reached.
+pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
+    if outcome.out_of_reach {
+        eprintln!(
+            "warning: stopped after {} passes: more of them cannot reach the wanted error, because light was gathered across \
+             edges, or with a radius that is too wide, or none was found; see the readings, and try --method final-gather",
+            outcome.passes
+        );
+    }
+    if let Some(ledger) = outcome.ledger.as_ref().filter(|ledger| ledger.trapped_paths > 0) {
         let share = 100.0 * ledger.total().cut_off.max() / ledger.emitted.max();
         eprintln!(
             "warning: {} light paths did not leave lossless specular surfaces and are booked under cut_off with all others \

@@ -1,15 +1,15 @@
 //! `photonlab render`: an image with its error layers.
 
 use photonlab_measure::student_t_quantile;
-use photonlab_readout::{Cell, Outcome, Session, Source};
+use photonlab_readout::{Cell, ErrorOver, Outcome, Session, Source};
 use photonlab_scene::{Film, Receiver};
 
 use crate::{
     Failure, by_channels, command,
     fixed_command::fixed_command,
     image::{Image, Layers},
-    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors},
-    measure::{doubt, warn_of_trapped_light},
+    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors, wanted},
+    measure::{doubt, warn},
     progress::Progress,
     system,
 };
@@ -62,11 +62,11 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
-    let session = Session { world, lamps: &lamps, needs, settings, confidence, rms: true };
-    let schedule = schedule(&session, &options.wanted(), cells.len());
+    let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Image };
+    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
-    warn_of_trapped_light(outcome.ledger.as_ref());
+    warn(&outcome);
     if let Some(doubt) = doubt(&world.scene, &settings, needs) {
         eprintln!("warning: this image is not certified: {doubt}");
     }
@@ -102,6 +102,8 @@ fn layers<const C: usize>(
         value: image(&|cell, c| outcome.cells[cell].value[c].mean().unwrap_or(0.0)),
         std_error: image(&|cell, c| outcome.cells[cell].value[c].std_error().unwrap_or(f64::NAN)),
         bias_bound: image(&|cell, c| match quantile {
+            // Nothing found is not dark: no bound is known there.
+            Some(_) if outcome.cells[cell].found_nothing() => f64::INFINITY,
             Some(_) => outcome.cells[cell].bias_bound(c, confidence),
             None => f64::NAN,
         }),

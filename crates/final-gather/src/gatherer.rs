@@ -48,13 +48,15 @@ pub struct Gatherer<'w, const C: usize> {
 
 impl<const C: usize> Gatherer<'_, C> {
     /// One sample of the irradiance at a surface point on the side of `normal`; `used` segments lie between it and the
-    /// sensor. The first bounce draws five numbers: three for the lamp, two for
+    /// sensor. Point lamps at distance d and cosine c count with weight 1 / (1 + `share` c / d^2) there; the rest is the
+    /// caller's. The first bounce draws five numbers: three for the lamp, two for
     /// the direction.
     pub fn irradiance(
         &self,
         at: &SurfacePoint,
         normal: DVec3,
         used: u32,
+        share: f64,
         stream: &mut Stream,
         scratch: &mut Scratch,
     ) -> Light<C> {
@@ -62,7 +64,8 @@ impl<const C: usize> Gatherer<'_, C> {
         let (mut at, mut normal, mut used) = (*at, normal, used);
         let mut weight = Colour::ONE;
         for bounce in 0.. {
-            light.add(&self.lamps_at(&at, normal, used, stream).weighted(weight));
+            let share = if bounce == 0 { share } else { 0.0 };
+            light.add(&self.lamps_at(&at, normal, used, share, stream).weighted(weight));
             light.add(&self.caustics_at(&at, normal, used, scratch).weighted(weight));
             if !self.looks_around || !self.limits.allows(used + 1) {
                 break;
@@ -108,7 +111,7 @@ impl<const C: usize> Gatherer<'_, C> {
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
-    fn lamps_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, stream: &mut Stream) -> Light<C> {
+    fn lamps_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, share: f64, stream: &mut Stream) -> Light<C> {
         let xi = [stream.next(), stream.next(), stream.next()];
         if !self.limits.allows(used + 1) {
             return Light::default();
@@ -118,7 +121,7 @@ impl<const C: usize> Gatherer<'_, C> {
         };
         let by_chance = warp::cosine_hemisphere_pdf_solid_angle(sample.direction.dot(normal));
         let balance = match sample.pdf_solid_angle {
-            0.0 => 1.0,
+            0.0 => 1.0 / (1.0 + share * sample.point_factor),
             pdf => pdf / (pdf + by_chance),
         };
         Light { irradiance: sample.irradiance * balance, ..Light::default() }

@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod cells;
+mod checked_file;
 mod identity;
 mod lattice;
 mod look;
@@ -13,6 +14,8 @@ mod map_file;
 mod maps;
 mod method;
 mod outcome;
+mod probe;
+mod run;
 mod schedule;
 mod session;
 
@@ -21,6 +24,6 @@ pub use identity::scene_identity;
 pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};
 pub use method::{Direct, Method, Settings};
-pub use outcome::{CellResult, Outcome};
+pub use outcome::{CellResult, ErrorOver, Outcome};
 pub use schedule::{Demands, Ends, Schedule, Wanted};
 pub use session::{Observer, ReadError, Session, Source};

@@ -9,7 +9,7 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{Lamps, Purpose, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
-use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps};
+use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps, probe};
 
 /// Looks into one pass's light.
 pub(crate) struct Look<'p, const C: usize> {
@@ -55,7 +55,8 @@ impl<const C: usize> Look<'_, C> {
         let (start, reach) = match &cell.target {
             Target::Patch { shape, film } => {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
-                let seed = Seed { first, sample, shift };
+                let share = probe::share(self.world, self.lamps, cell);
+                let seed = Seed { first, sample, shift, share };
                 return Sample { light: self.irradiance(&point, point.normal, 0, seed, scratch), dark: false };
             }
             Target::Along(ray) => (*ray, f64::INFINITY),
@@ -67,7 +68,7 @@ impl<const C: usize> Look<'_, C> {
         let mut light = Light { irradiance: emitted, ..Light::default() };
         let diffuse = landing.diffuse.filter(|(_, reflectance, weight)| !(*reflectance * *weight).is_zero());
         if let Some((hit, reflectance, weight)) = diffuse {
-            let seed = Seed { first, sample, shift };
+            let seed = Seed { first, sample, shift, share: 0.0 };
             let found = self.irradiance(&hit.point, hit.facing_normal(), landing.segments, seed, scratch);
             light.add(&found.weighted(reflectance * weight * (1.0 / PI)));
         }
@@ -107,14 +108,15 @@ impl<const C: usize> Look<'_, C> {
                         limits: self.limits(),
                         looks_around: self.looks_around,
                     };
-                    gatherer.irradiance(at, normal, used, &mut stream, scratch)
+                    gatherer.irradiance(at, normal, used, seed.share, &mut stream, scratch)
                 }
                 Method::Nearest { .. } | Method::Radius { .. } => {
-                    let mut one = self.from_map(at, normal, used, scratch);
+                    let mut one = self.read_map(at, normal, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
                         let direct = sample_direct(self.world, self.lamps, at, normal, xi);
-                        one.irradiance += direct.map_or(Colour::ZERO, |d| d.irradiance);
+                        one.irradiance +=
+                            direct.map_or(Colour::ZERO, |d| d.irradiance * (1.0 / (1.0 + seed.share * d.point_factor)));
                     }
                     one
                 }
@@ -124,7 +126,7 @@ impl<const C: usize> Look<'_, C> {
     }
 
     /// The density estimate at the point itself.
-    fn from_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
+    fn read_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };
@@ -168,4 +170,6 @@ struct Seed<'s> {
     first: u64,
     sample: u64,
     shift: &'s [f64; lattice::DIMENSIONS],
+    /// See [`probe::share`].
+    share: f64,
 }

@@ -5,18 +5,19 @@
 //! pass, and a 128-bit hash of all bytes before it. Trees are built when a map is read: that is faster than reading them.
 
 use std::{
-    fs::File,
-    io::{self, Read, Write},
+    io,
     path::{Path, PathBuf},
 };
 
 use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
 use photonlab_trace::{Book, Classes, Ledger, Limits, SurfaceBook};
-use xxhash_rust::xxh3::Xxh3;
 
-use crate::PassPhotons;
+use crate::{
+    PassPhotons,
+    checked_file::{Bytes, Hashing},
+};
 
-const MAGIC: &[u8; 8] = b"PHOTONLB";
+pub(crate) const MAGIC: &[u8; 8] = b"PHOTONLB";
 const VERSION: u32 = 1;
 
 /// What a map is of.
@@ -93,14 +94,14 @@ impl<const C: usize> MapFile<C> {
         let surfaces = bytes.u32()? as usize;
         let passes = bytes.u32()?;
         let passes = (0..passes).map(|_| pass(&mut bytes, surfaces)).collect::<Result<_, _>>()?;
-        if bytes.at != bytes.data.len() {
+        if !bytes.is_at_end() {
             return Err(bytes.unusable("it is longer than its contents"));
         }
         Ok(Self { header, passes })
     }
 
     fn write(&self, path: &Path) -> io::Result<()> {
-        let mut out = Hashing { file: io::BufWriter::new(File::create(path)?), hash: Xxh3::new() };
+        let mut out = Hashing::create(path)?;
         let header = &self.header;
         out.put(MAGIC)?;
         out.put(&VERSION.to_le_bytes())?;
@@ -115,9 +116,7 @@ impl<const C: usize> MapFile<C> {
         out.put(&(surfaces as u32).to_le_bytes())?;
         out.put(&(self.passes.len() as u32).to_le_bytes())?;
         self.passes.iter().try_for_each(|pass| write_pass(&mut out, pass))?;
-        let digest = out.hash.digest128().to_le_bytes();
-        out.file.write_all(&digest)?;
-        out.file.into_inner()?.sync_all()
+        out.finish()
     }
 }
 
@@ -151,75 +150,6 @@ fn ledger_fields<const C: usize>(ledger: &mut Ledger<C>) -> Vec<&mut Colour<C>> 
         fields.extend([incident, outgoing, absorbed]);
     }
     fields
-}
-
-struct Hashing {
-    file: io::BufWriter<File>,
-    hash: Xxh3,
-}
-
-impl Hashing {
-    fn put(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.hash.update(bytes);
-        self.file.write_all(bytes)
-    }
-}
-
-struct Bytes {
-    path: PathBuf,
-    data: Vec<u8>,
-    at: usize,
-}
-
-impl Bytes {
-    /// The contents of a map file without its hash, which is checked.
-    fn of(path: &Path) -> Result<Self, MapFileError> {
-        let io = |source| MapFileError::Io { path: path.into(), source };
-        let mut file = File::open(path).map_err(io)?;
-        if !file.metadata().map_err(io)?.is_file() {
-            return Err(MapFileError::Unusable { path: path.into(), what: "it is not a regular file".into() });
-        }
-        // A foreign file is refused by its first bytes, before it is read into memory.
-        let mut magic = [0; 8];
-        let found = file.read(&mut magic).map_err(io)?;
-        let mut bytes = Self { path: path.into(), data: magic[..found].to_vec(), at: 0 };
-        if magic != *MAGIC {
-            return Err(bytes.unusable("it is not a photon map of photonlab"));
-        }
-        file.read_to_end(&mut bytes.data).map_err(io)?;
-        let Some(end) = bytes.data.len().checked_sub(16) else {
-            return Err(bytes.unusable("it is cut short"));
-        };
-        let mut hash = Xxh3::new();
-        hash.update(&bytes.data[..end]);
-        if hash.digest128().to_le_bytes() != bytes.data[end..] {
-            return Err(bytes.unusable("it is damaged or cut short: its checksum does not fit"));
-        }
-        bytes.data.truncate(end);
-        Ok(bytes)
-    }
-
-    fn unusable(&self, what: &str) -> MapFileError {
-        MapFileError::Unusable { path: self.path.clone(), what: what.into() }
-    }
-
-    fn take<const N: usize>(&mut self) -> Result<[u8; N], MapFileError> {
-        let next = self.data.get(self.at..self.at + N).and_then(|bytes| bytes.try_into().ok());
-        self.at += N;
-        next.ok_or_else(|| self.unusable("it is cut short"))
-    }
-
-    fn u32(&mut self) -> Result<u32, MapFileError> {
-        self.take().map(u32::from_le_bytes)
-    }
-
-    fn u64(&mut self) -> Result<u64, MapFileError> {
-        self.take().map(u64::from_le_bytes)
-    }
-
-    fn f32(&mut self) -> Result<f32, MapFileError> {
-        self.take().map(f32::from_le_bytes)
-    }
 }
 
 fn header(bytes: &mut Bytes) -> Result<MapHeader, MapFileError> {

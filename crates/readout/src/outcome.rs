@@ -80,35 +80,74 @@ pub struct Outcome<const C: usize> {
     pub samples: u64,
     /// What ended the run.
     pub stopped: Stopped,
+    /// True if the run ended because no number of further passes would have reached the wanted error.
+    pub out_of_reach: bool,
     /// Mean radius averaged over, metres; `None` without a fixed-radius gather.
     pub radius: Option<f64>,
     /// The channels' meaning.
     pub channels: Channels,
 }
 
-/// The worst relative half-width over cells and channels (`measure`), or the RMS half-width over the mean (`render`).
-pub(crate) fn relative_error<const C: usize>(cells: &[CellResult<C>], confidence: f64, rms: bool) -> Option<f64> {
-    let passes = cells.first()?.value[0].len();
-    if passes < 2 {
-        return None;
+/// How the cells' errors make one number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorOver {
+    /// The worst relative half-width over cells and channels (`measure`).
+    Worst,
+    /// The RMS half-width over the mean (`render`).
+    Image,
+}
+
+impl ErrorOver {
+    /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
+    pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], confidence: f64) -> Option<f64> {
+        self.combine(cells, confidence, |cell, c, t| {
+            let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
+            let known = cell.bias[c].mean().unwrap_or(0.0).abs() + cell.unresolved[c].mean().unwrap_or(0.0).abs();
+            t * noise + known
+        })
     }
-    // One quantile serves all cells.
-    let t = student_t_quantile(confidence, (passes - 1) as f64);
-    let half = |cell: &CellResult<C>, c: usize| {
-        let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
-        let known = cell.bias[c].mean().unwrap_or(0.0).abs() + cell.unresolved[c].mean().unwrap_or(0.0).abs();
-        t * noise + known
-    };
-    let each = cells.iter().flat_map(|cell| (0..C).map(move |c| (cell, c)));
-    if rms {
-        let squares: f64 = each.clone().map(|(cell, c)| half(cell, c).powi(2)).sum();
-        let count = (cells.len() * C) as f64;
-        let mean: f64 = each.map(|(cell, c)| cell.value[c].mean().unwrap_or(0.0).abs()).sum::<f64>() / count;
-        return (mean > 0.0).then(|| (squares / count).sqrt() / mean);
+
+    /// The part of it that no number of further passes of the same radius can take away: the bias, where it is
+    /// significant, and what is gathered across edges.
+    pub(crate) fn floor_of<const C: usize>(self, cells: &[CellResult<C>], confidence: f64) -> Option<f64> {
+        self.combine(cells, confidence, |cell, c, t| {
+            let significant =
+                |r: &Replicates| (r.mean().unwrap_or(0.0).abs() - t * r.std_error().unwrap_or(0.0)).max(0.0);
+            significant(&cell.bias[c]) + significant(&cell.unresolved[c])
+        })
     }
-    each.filter(|(cell, _)| !cell.dark)
-        .map(|(cell, c)| half(cell, c) / cell.value[c].mean().unwrap_or(0.0).abs())
-        .map(|error| if error.is_nan() { f64::INFINITY } else { error })
-        .reduce(f64::max)
-        .or(Some(0.0))
+
+    fn combine<const C: usize>(
+        self,
+        cells: &[CellResult<C>],
+        confidence: f64,
+        half_width: impl Fn(&CellResult<C>, usize, f64) -> f64,
+    ) -> Option<f64> {
+        let passes = cells.first()?.value[0].len();
+        if passes < 2 {
+            return None;
+        }
+        // One quantile serves all cells.
+        let t = student_t_quantile(confidence, (passes - 1) as f64);
+        let each = || cells.iter().flat_map(|cell| (0..C).map(move |c| (cell, c)));
+        let value = |cell: &CellResult<C>, c: usize| cell.value[c].mean().unwrap_or(0.0).abs();
+        match self {
+            ErrorOver::Image => {
+                let count = (cells.len() * C) as f64;
+                let squares: f64 = each().map(|(cell, c)| half_width(cell, c, t).powi(2)).sum();
+                let mean = each().map(|(cell, c)| value(cell, c)).sum::<f64>() / count;
+                (mean > 0.0).then(|| (squares / count).sqrt() / mean)
+            }
+            // A channel in which proven dark or a lamp without that colour reads zero has no relative error.
+            ErrorOver::Worst => each()
+                .filter(|(cell, c)| value(cell, *c) > 0.0 || cell.found_nothing())
+                .map(
+                    |(cell, c)| {
+                        if value(cell, c) > 0.0 { half_width(cell, c, t) / value(cell, c) } else { f64::INFINITY }
+                    },
+                )
+                .reduce(f64::max)
+                .or(Some(0.0)),
+        }
+    }
 }

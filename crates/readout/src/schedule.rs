@@ -7,7 +7,7 @@ const PASSES: u64 = 16;
 /// Photons per pass unless asked otherwise.
 const PHOTONS_PER_PASS: u64 = 1 << 16;
 /// Photons in a pass at most, which bounds memory; more photons mean more passes.
-const LARGEST_PASS: u64 = 1 << 21;
+const LARGEST_PASS: u64 = 1 << 19;
 /// Gather rays or paths per pass, shared by all cells, unless asked otherwise.
 const RAYS_PER_PASS: u64 = 1 << 17;
 /// Points per cell and pass unless asked otherwise, at least.

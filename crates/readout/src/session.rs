@@ -5,16 +5,18 @@ use std::time::{Duration, Instant};
 use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
-use photonlab_sampling::{Lamps, PlanError};
+use photonlab_photometry::Colour;
+use photonlab_sampling::{Lamps, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
-use photonlab_trace::{Ledger, TraceError};
+use photonlab_trace::TraceError;
 use rayon::prelude::*;
 
 use crate::{
-    Cell, CellResult, Demands, MapFile, Method, Outcome, PassPhotons, Schedule, Settings,
+    Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings,
     look::{Look, Sample},
-    maps::{PassMaps, Radii},
-    outcome::relative_error,
+    maps::PassMaps,
+    probe::probe,
+    run::Run,
     trace_pass,
 };
 
@@ -22,6 +24,8 @@ use crate::{
 const BLOCK: u64 = 256;
 /// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
 const PASSES_BEFORE_STOPPING: u64 = 16;
+/// Passes before a target is given up as out of reach.
+const PASSES_BEFORE_GIVING_UP: u64 = 64;
 /// Growth of the number of passes between two looks at the error. Every look is a chance to stop on a lucky error bar.
 const LOOK_GROWTH: f64 = 1.1;
 /// A run that only its error could end stops here and says so.
@@ -70,8 +74,8 @@ pub struct Session<'w, const C: usize> {
     pub settings: Settings,
     /// Two-sided confidence of the intervals that may end the run.
     pub confidence: f64,
-    /// True if the error is the RMS over all cells over their mean (an image), else the worst cell's.
-    pub rms: bool,
+    /// How the cells' errors make the one that may end the run.
+    pub error_over: ErrorOver,
 }
 
 impl<const C: usize> Session<'_, C> {
@@ -126,7 +130,7 @@ impl<const C: usize> Session<'_, C> {
             longest = longest.max(begun.elapsed());
             let done = run.passes;
             let looks = done >= next_look;
-            let error = looks.then(|| relative_error(&run.cells, self.confidence, self.rms)).flatten();
+            let error = looks.then(|| self.error_over.of(&run.cells, self.confidence)).flatten();
             observer.pass_done(done, start.elapsed(), error);
             if looks {
                 next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
@@ -134,6 +138,9 @@ impl<const C: usize> Session<'_, C> {
             let reached = schedule.ends.target_error.zip(error).is_some_and(|(target, error)| error <= target);
             let stopped = if reached {
                 Some(Stopped::Target)
+            } else if looks && self.target_is_out_of_reach(&run, schedule.ends.target_error) {
+                run.out_of_reach = true;
+                Some(Stopped::Count)
             } else if passes.unwrap_or(MOST_PASSES) <= done {
                 Some(Stopped::Count)
             } else if schedule.ends.time_limit.is_some_and(|limit| start.elapsed() + longest > limit) {
@@ -145,6 +152,21 @@ impl<const C: usize> Session<'_, C> {
                 return Ok(run.finish(self, stopped));
             }
         }
+    }
+
+    /// True if more passes cannot bring the error down to the target: the bias of a radius that does not shrink, or light
+    /// gathered across an edge, or nothing found at all, is beyond it already.
+    fn target_is_out_of_reach(&self, run: &Run<C>, target: Option<f64>) -> bool {
+        let Some(target) = target else { return false };
+        let shrinks = match self.settings.method {
+            Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
+            Method::Nearest { .. } => false,
+            Method::Path => true,
+        };
+        // What shrinks is given more passes before it is given up.
+        let patience = if shrinks { 16 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
+        run.passes >= patience
+            && self.error_over.floor_of(&run.cells, self.confidence).is_none_or(|floor| floor > target)
     }
 
     /// Divides the passes, after a pilot whose work is not used, so that enough of them end within the time limit.
@@ -200,14 +222,34 @@ impl<const C: usize> Session<'_, C> {
                 sum
             })
             .collect();
-        for (cell, parts) in run.cells.iter_mut().zip(found.chunks(blocks as usize)) {
+        let probed = self.probes(cells, number as u32, samples);
+        for ((cell, parts), probed) in run.cells.iter_mut().zip(found.chunks(blocks as usize)).zip(probed) {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
-            cell.push(&light.over(samples as f64), light.photons, parts.iter().all(|part| part.dark));
+            let mut mean = light.over(samples as f64);
+            mean.irradiance += probed;
+            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
         }
         run.passes += 1;
         run.samples += samples;
         Ok(())
+    }
+
+    /// What rays from point lamps add to each cell, where direct light is sampled.
+    fn probes(&self, cells: &[Cell], pass: u32, points: u64) -> Vec<Colour<C>> {
+        let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
+        if from_map && self.settings.direct == Direct::Photons {
+            return vec![Colour::ZERO; cells.len()];
+        }
+        let of_sensors = cells.chunk_by(|a, b| a.sensor == b.sensor);
+        of_sensors
+            .flat_map(|of_sensor| {
+                let number = of_sensor[0].sensor as u64;
+                probe(self.world, self.lamps, of_sensor, points, |ray| {
+                    Stream::new(self.settings.seed, Purpose::Probes, pass, number << 44 | ray)
+                })
+            })
+            .collect()
     }
 
     fn maps(
@@ -231,52 +273,5 @@ impl<const C: usize> Session<'_, C> {
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
-    }
-}
-
-struct Run<const C: usize> {
-    cells: Vec<CellResult<C>>,
-    ledger: Option<Ledger<C>>,
-    radii: Radii,
-    radius: f64,
-    photons: u64,
-    passes: u64,
-    samples: u64,
-}
-
-impl<const C: usize> Run<C> {
-    fn new(cells: usize) -> Self {
-        Self {
-            cells: vec![CellResult::default(); cells],
-            ledger: None,
-            radii: Radii::default(),
-            radius: 0.0,
-            photons: 0,
-            passes: 0,
-            samples: 0,
-        }
-    }
-
-    fn book(&mut self, pass: &PassPhotons<C>) {
-        self.photons += pass.emitted;
-        match &mut self.ledger {
-            Some(ledger) => ledger.add(&pass.ledger),
-            None => self.ledger = Some(pass.ledger.clone()),
-        }
-    }
-
-    fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
-        let per_pass = 1.0 / self.passes as f64;
-        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
-        Outcome {
-            ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
-            radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
-            cells: self.cells,
-            photons: self.photons,
-            passes: self.passes,
-            samples: self.samples,
-            stopped,
-            channels: session.needs.channels,
-        }
     }
 }

@@ -17,6 +17,8 @@ pub struct DirectSample<const C: usize> {
     /// share the work with it; zero where the draw alone is good: lamps without extent, and lamps drawn evenly over the
     /// solid angle under which they are seen, whose estimate is bounded.
     pub pdf_solid_angle: f64,
+    /// Cosine over squared distance for a point lamp, 1/m^2; zero for all others.
+    pub point_factor: f64,
 }
 
 /// Draws one lamp and one point of it, from three numbers, as seen from a point on the side of `normal`.
@@ -43,14 +45,15 @@ pub fn sample_direct<const C: usize>(
             let direction = offset / distance;
             let cosine = direction.dot(normal);
             let lit = cosine > 0.0 && visible(direction, distance, None);
-            let irradiance = *intensity * (cosine / (distance * distance) / chosen);
-            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: 0.0 })
+            let point_factor = cosine / (distance * distance);
+            let irradiance = *intensity * (point_factor / chosen);
+            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: 0.0, point_factor })
         }
         LampKind::Directional { direction, irradiance, .. } => {
             let cosine = -direction.dot(normal);
             let lit = cosine > 0.0 && visible(-*direction, f64::INFINITY, None);
             let irradiance = *irradiance * (cosine / chosen);
-            lit.then_some(DirectSample { direction: -*direction, irradiance, pdf_solid_angle: 0.0 })
+            lit.then_some(DirectSample { direction: -*direction, irradiance, pdf_solid_angle: 0.0, point_factor: 0.0 })
         }
         LampKind::Area { primitive, radiance, .. } => {
             let draw = AreaDraw::new(world, *primitive, point.position);
@@ -63,7 +66,7 @@ pub fn sample_direct<const C: usize>(
             let lit = cosine > 0.0 && pdf > 0.0 && visible(direction, distance, Some(*primitive));
             let irradiance = *radiance * (cosine / pdf);
             let pdf_solid_angle = if is_drawn_alone(world, *primitive) { 0.0 } else { pdf };
-            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle })
+            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle, point_factor: 0.0 })
         }
     }
 }

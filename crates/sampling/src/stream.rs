@@ -10,6 +10,8 @@ pub enum Purpose {
     Readout = 1,
     /// Offsets of quasi-random point sets; the index is the cell's.
     Offsets = 2,
+    /// Rays from lamps towards a meter; the index counts cells and rays.
+    Probes = 4,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }
@@ -69,6 +71,7 @@ impl Stream {
     }
 
     /// The next number in (0, 1).
+    #[expect(clippy::should_implement_trait, reason = "an iterator's next may end; a stream's does not")]
     #[inline]
     pub fn next(&mut self) -> f64 {
         if self.prefix_left > 0 {

@@ -4,10 +4,13 @@
 //! rays; [`Needs`] says what must be modelled to read it.
 #![forbid(unsafe_code)]
 
+mod accelerator;
 mod ball;
+mod cell;
 mod description;
 mod needs;
 mod parallelogram;
+mod primitive;
 mod ray;
 pub mod read;
 mod world;
@@ -15,8 +18,9 @@ mod world;
 pub use ball::Ball;
 pub use needs::{Need, Needs};
 pub use parallelogram::Parallelogram;
+pub use primitive::{Hit, Primitive, Surface, SurfacePoint};
 pub use ray::Ray;
-pub use world::{Hit, Primitive, Surface, SurfacePoint, World};
+pub use world::World;
 
 pub use description::{
     Bsdf, Camera, Emitter, Film, Geometry, Meter, Receiver, Rgb, Scene, Sensor, Shape, SpecularReflectance,

@@ -56,6 +56,12 @@ impl Parallelogram {
         self.centre + (2.0 * uv.x - 1.0) * self.edge_u + (2.0 * uv.y - 1.0) * self.edge_v
     }
 
+    /// (u, v) of a point on the surface.
+    pub fn uv(&self, position: DVec3) -> DVec2 {
+        let offset = position - self.centre;
+        0.5 * DVec2::new(offset.dot(self.dual_u) + 1.0, offset.dot(self.dual_v) + 1.0)
+    }
+
     /// Distance along the ray and (u, v) where it meets the surface beyond `t_min`.
     pub fn intersect(&self, ray: &Ray, t_min: f64) -> Option<(f64, DVec2)> {
         let denominator = self.normal.dot(ray.direction);

@@ -1,6 +1,8 @@
 //! Scenes read by experiments as the command would read them.
 
-use photonlab_readout::{Cell, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Wanted};
+use photonlab_readout::{
+    Cell, ErrorOver, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Target, Wanted,
+};
 use photonlab_sampling::Lamps;
 use photonlab_scene::{Needs, World, read::read_scene_str};
 
@@ -33,8 +35,10 @@ impl Lab {
         confidence: f64,
     ) -> Result<Outcome<C>, ReadError> {
         let lamps = Lamps::new(&self.world);
-        let rms = cells.first().is_some_and(|cell| matches!(cell.target, photonlab_readout::Target::Pixel { .. }));
-        let session = Session { world: &self.world, lamps: &lamps, needs: &self.needs, settings, confidence, rms };
+        let is_image = cells.first().is_some_and(|cell| matches!(cell.target, Target::Pixel { .. }));
+        let error_over = if is_image { ErrorOver::Image } else { ErrorOver::Worst };
+        let session =
+            Session { world: &self.world, lamps: &lamps, needs: &self.needs, settings, confidence, error_over };
         let schedule = Schedule::new(wanted, cells.len(), &session.demands());
         session.run(cells, &schedule, &Source::Trace, &Silent)
     }

@@ -39,9 +39,10 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
         let record = run(claim, budget, &out)?;
         eprintln!("       {}: {}", verdict_word(&record), record.reason);
         finished.push(record);
+        // The page is brought up to date after each claim, so that an interrupt leaves a report of what is finished.
+        report::write(&finished, &out)?;
     }
-    let page = report::write(&finished, &out)?;
-    println!("{}", page.display());
+    println!("{}", out.join("report.html").display());
     Ok(())
 }
 

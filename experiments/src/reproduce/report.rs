@@ -1,14 +1,14 @@
 //! Figures and the report page of finished records.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use photonlab_measure::Record;
 use photonlab_paper_figures::{ReportEntry, draw, report};
 
 use crate::interrupt::write_whole;
 
-/// Writes every record's figures and the report beside them; returns the report's path.
-pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<PathBuf> {
+/// Writes every record's figures and the report beside them.
+pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<()> {
     for record in records {
         for figure in &record.figures {
             let path = out.join("figures").join(format!("{}-{}.svg", record.claim, figure.id));
@@ -17,7 +17,5 @@ pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<PathBuf> {
     }
     let folder = out.join("records");
     let entries = records.iter().map(|record| ReportEntry::load(record, &folder)).collect::<Result<Vec<_>, _>>()?;
-    let page = out.join("report.html");
-    write_whole(&page, report(&entries)?.as_bytes())?;
-    Ok(page)
+    write_whole(&out.join("report.html"), report(&entries)?.as_bytes())
 }

@@ -1,0 +1,96 @@
+//! Direct light of point lamps on a meter's cells, sampled from the lamps' side.
+//!
+//! A point of a cell drawn by area sees a near point lamp as intensity over distance squared, which has next to no bound. A
+//! ray drawn from the lamp carries bounded flux, but rarely meets a small or distant cell. The balance heuristic (Veach and
+//! Guibas 1995) lets each do what it does well: with n1 rays from the lamps and n2 points on a cell of area A, a lamp at
+//! distance d and cosine c is left to the points with weight 1 / (1 + (n1 / n2) A c / (4 pi d^2)).
+
+use std::f64::consts::PI;
+
+use photonlab_photometry::Colour;
+use photonlab_sampling::{LampKind, Lamps, Stream};
+use photonlab_scene::World;
+use rayon::prelude::*;
+
+use crate::{Cell, Target};
+
+/// Rays that one task follows.
+const BLOCK: u64 = 1024;
+
+/// What the weight of a point on a cell needs: (n1 / n2) A / (4 pi), zero where no rays are sent.
+pub(crate) fn share<const C: usize>(world: &World, lamps: &Lamps<C>, cell: &Cell) -> f64 {
+    match &cell.target {
+        Target::Patch { shape, film } if has_point_lamp(lamps) => {
+            let area = world.cell_area(*shape, cell.cell[1], [film.width, film.height]);
+            rays_per_point([film.width, film.height]) * area / (4.0 * PI)
+        }
+        _ => 0.0,
+    }
+}
+
+/// As many rays are sent for each cell of a sensor as it has points, and any cell may catch them.
+fn rays_per_point(size: [u32; 2]) -> f64 {
+    f64::from(size[0]) * f64::from(size[1])
+}
+
+fn has_point_lamp<const C: usize>(lamps: &Lamps<C>) -> bool {
+    lamps.lamps.iter().any(|lamp| matches!(lamp.kind, LampKind::Point { .. }))
+}
+
+/// What rays from point lamps bring each cell of one sensor: irradiance, weighted against the cells' own points.
+/// `points` is the number of points per cell.
+pub(crate) fn probe<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    cells: &[Cell],
+    points: u64,
+    stream: impl Fn(u64) -> Stream + Sync,
+) -> Vec<Colour<C>> {
+    let mut found = vec![Colour::ZERO; cells.len()];
+    let Some(Target::Patch { shape, film }) = cells.first().map(|cell| &cell.target) else { return found };
+    if !has_point_lamp(lamps) {
+        return found;
+    }
+    let rays = points * cells.len() as u64;
+    let size = [film.width, film.height];
+    let arrivals: Vec<Vec<(usize, Colour<C>)>> = (0..rays.div_ceil(BLOCK))
+        .into_par_iter()
+        .map(|block| {
+            let each = block * BLOCK..((block + 1) * BLOCK).min(rays);
+            each.filter_map(|ray| arrival(world, lamps, *shape, size, &mut stream(ray))).collect()
+        })
+        .collect();
+    for (cell, irradiance) in arrivals.into_iter().flatten() {
+        found[cell] += irradiance * (1.0 / rays as f64);
+    }
+    found
+}
+
+/// Where one ray from a lamp lands on the shape: the cell and its weighted contribution.
+fn arrival<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    shape: usize,
+    size: [u32; 2],
+    stream: &mut Stream,
+) -> Option<(usize, Colour<C>)> {
+    let chosen = lamps.choose(stream.next());
+    let lamp = &lamps.lamps[chosen];
+    if !matches!(lamp.kind, LampKind::Point { .. }) {
+        return None;
+    }
+    let emission = lamp.emit(world, stream);
+    let hit = world.cast(&emission.ray, emission.from, f64::INFINITY).filter(|hit| hit.front)?;
+    if world.primitives[hit.point.primitive as usize].shape as usize != shape {
+        return None;
+    }
+    let uv = world.uv(&hit.point);
+    let place = |x: f64, count: u32| ((x * f64::from(count)) as u32).min(count - 1);
+    let [column, row] = [place(uv.x, size[0]), place(uv.y, size[1])];
+    let area = world.cell_area(shape, row, size);
+    let cosine = -emission.ray.direction.dot(hit.point.normal);
+    let odds = rays_per_point(size) * area * cosine / (4.0 * PI * hit.distance * hit.distance);
+    let weight = odds / (1.0 + odds);
+    let irradiance = lamp.flux * (weight / (lamps.probability[chosen] * area));
+    Some(((row * size[0] + column) as usize, irradiance))
+}

@@ -1,0 +1,57 @@
+//! What a run has found so far.
+
+use photonlab_measure::Stopped;
+use photonlab_trace::Ledger;
+
+use crate::{CellResult, Method, Outcome, PassPhotons, Session, maps::Radii};
+
+/// What the passes so far have found.
+pub(crate) struct Run<const C: usize> {
+    pub(crate) cells: Vec<CellResult<C>>,
+    pub(crate) ledger: Option<Ledger<C>>,
+    pub(crate) radii: Radii,
+    pub(crate) radius: f64,
+    pub(crate) photons: u64,
+    pub(crate) passes: u64,
+    pub(crate) samples: u64,
+    pub(crate) out_of_reach: bool,
+}
+
+impl<const C: usize> Run<C> {
+    pub(crate) fn new(cells: usize) -> Self {
+        Self {
+            cells: vec![CellResult::default(); cells],
+            ledger: None,
+            radii: Radii::default(),
+            radius: 0.0,
+            photons: 0,
+            passes: 0,
+            samples: 0,
+            out_of_reach: false,
+        }
+    }
+
+    pub(crate) fn book(&mut self, pass: &PassPhotons<C>) {
+        self.photons += pass.emitted;
+        match &mut self.ledger {
+            Some(ledger) => ledger.add(&pass.ledger),
+            None => self.ledger = Some(pass.ledger.clone()),
+        }
+    }
+
+    pub(crate) fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
+        let per_pass = 1.0 / self.passes as f64;
+        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
+        Outcome {
+            ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
+            radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
+            cells: self.cells,
+            photons: self.photons,
+            passes: self.passes,
+            samples: self.samples,
+            stopped,
+            out_of_reach: self.out_of_reach,
+            channels: session.needs.channels,
+        }
+    }
+}
