@@ -3,7 +3,7 @@
 use std::{path::PathBuf, time::Duration};
 
 use photonlab_gather::AreaModel;
-use photonlab_readout::{Cell, Direct, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted};
+use photonlab_readout::{Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted};
 use photonlab_sampling::{EmissionPlan, Lamps};
 use photonlab_scene::{Needs, World, read::read_scene_str};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
@@ -73,7 +73,7 @@ impl Lab {
     ) -> Outcome<C> {
         let lamps = Lamps::new(&self.world);
         let (world, needs) = (&self.world, &self.needs);
-        let session = Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, rms: false };
+        let session = Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
         let wanted =
             Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
         let schedule = Schedule::new(&wanted, cells.len(), &session.demands());

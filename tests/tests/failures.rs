@@ -77,7 +77,7 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         ("--method nearest --k 1", "--k must be at least 2"),
         ("--photons 0", "must be at least 1"),
         ("--photons 1.5", "not a whole number"),
-        ("--radius -1", "above 0"),
+        ("--radius 0", "above 0"),
         ("--radius nan", "above 0"),
         ("--target-error 0%", "above 0"),
         ("--confidence 1", "below 1"),
