@@ -46,7 +46,6 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cube, six meters", 6),
     ("cube, mean", 1),
     ("ball lens, transport", 5),
-    ("another seed", 1),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].
