@@ -14,12 +14,13 @@ const DOT: usize = 2;
 /// A legend needs this height to be readable; smaller images are enlarged by whole factors.
 const SMALLEST_HEIGHT: usize = 256;
 
-/// An image of the mean of the channels, on a linear scale from 0 to the 99.5th percentile, with a legend in its unit.
-pub(crate) fn png(image: &Image, unit: &str) -> anyhow::Result<Vec<u8>> {
+/// An image of the mean of the channels, on a linear scale from 0 to `top` (else to the 99.5th percentile), with a legend
+/// in its unit.
+pub(crate) fn png(image: &Image, unit: &str, top: Option<f32>) -> anyhow::Result<Vec<u8>> {
     let zoom = SMALLEST_HEIGHT.div_ceil(image.height.max(1)).max(1);
     let (width, height) = (image.width * zoom + LEGEND_WIDTH, image.height * zoom);
     let mean = |pixel: &[f32; 3]| (pixel[0] + pixel[1] + pixel[2]) / 3.0;
-    let top = percentile(image.pixels.iter().map(mean), 0.995).max(f32::MIN_POSITIVE);
+    let top = top.unwrap_or_else(|| percentile(image.pixels.iter().map(mean), 0.995)).max(f32::MIN_POSITIVE);
     let mut canvas = Canvas { width, height, rgb: vec![255; width * height * 3] };
     for y in 0..height {
         for x in 0..image.width * zoom {
@@ -116,6 +117,7 @@ fn glyph(letter: char) -> [u8; 7] {
         '9' => [14, 17, 17, 15, 1, 2, 12],
         '.' => [0, 0, 0, 0, 0, 12, 12],
         '-' => [0, 0, 0, 31, 0, 0, 0],
+        '%' => [24, 25, 2, 4, 8, 19, 3],
         '/' => [1, 1, 2, 4, 8, 16, 16],
         '(' => [2, 4, 8, 8, 8, 4, 2],
         ')' => [8, 4, 2, 2, 2, 4, 8],

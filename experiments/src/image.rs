@@ -70,15 +70,43 @@ impl Layers {
 
     /// Tone-mapped for looking at: exposed so that the brightest percent saturates, sRGB curve.
     pub(crate) fn to_png(&self) -> anyhow::Result<Vec<u8>> {
-        let white = percentile(self.value.pixels.iter().map(|p| p.iter().copied().fold(0.0, f32::max)), 0.99);
-        let scale = if white > 0.0 { 1.0 / white } else { 1.0 };
-        let rgb: Vec<u8> = self.value.pixels.iter().flat_map(|pixel| pixel.map(|x| srgb(x * scale))).collect();
-        encode_png(self.value.width, self.value.height, &rgb)
+        self.value.to_png(self.value.white())
     }
 
     /// Luminance in colours with a legend in its unit.
     pub(crate) fn to_false_colour_png(&self) -> anyhow::Result<Vec<u8>> {
-        crate::false_colour::png(&self.value, &self.unit)
+        crate::false_colour::png(&self.value, &self.unit, None)
+    }
+}
+
+impl Image {
+    /// The value that the brightest percent of the pixels exceeds: white in a picture of it.
+    pub(crate) fn white(&self) -> f32 {
+        percentile(self.pixels.iter().map(|p| p.iter().copied().fold(0.0, f32::max)), 0.99)
+    }
+
+    /// Tone-mapped for looking at, `white` and above white.
+    pub(crate) fn to_png(&self, white: f32) -> anyhow::Result<Vec<u8>> {
+        let scale = if white > 0.0 { 1.0 / white } else { 1.0 };
+        let rgb: Vec<u8> = self.pixels.iter().flat_map(|pixel| pixel.map(|x| srgb(x * scale))).collect();
+        encode_png(self.width, self.height, &rgb)
+    }
+
+    /// Several images of one height in a row, with a white gap of two pixels between them.
+    pub(crate) fn side_by_side(images: &[&Image], white: f32) -> Image {
+        const GAP: usize = 2;
+        let height = images.first().map_or(0, |image| image.height);
+        let width = images.iter().map(|image| image.width + GAP).sum::<usize>().saturating_sub(GAP);
+        let mut row = Image { width, height, pixels: vec![[white; 3]; width * height] };
+        let mut left = 0;
+        for image in images {
+            for y in 0..height {
+                let from = y * image.width;
+                row.pixels[y * width + left..][..image.width].copy_from_slice(&image.pixels[from..from + image.width]);
+            }
+            left += image.width + GAP;
+        }
+        row
     }
 }
 

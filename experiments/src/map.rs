@@ -21,6 +21,7 @@ pub(crate) fn map(arguments: &command::Map) -> Result<(), Failure> {
             system::start_threads(build.options.threads)?;
             let loaded = Loaded::new(&build.scene)?;
             loaded.needs_light(&build.scene.scene)?;
+            crate::image::is_writable(&build.output)?;
             by_channels!(loaded.needs.channels, save(build, &loaded))
         }
         MapVerb::Info { file } => info(file),

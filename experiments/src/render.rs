@@ -104,7 +104,7 @@ fn layers<const C: usize>(
         bias_bound: image(&|cell, c| match quantile {
             // Nothing found is not dark: no bound is known there.
             Some(_) if outcome.cells[cell].found_nothing() => f64::INFINITY,
-            Some(_) => outcome.cells[cell].bias_bound(c, confidence),
+            Some(quantile) => outcome.cells[cell].bias_bound_within(c, quantile),
             None => f64::NAN,
         }),
         photons_used: outcome.cells.iter().map(|cell| cell.photons as f32).collect(),

@@ -45,7 +45,7 @@ pub(crate) struct Bytes {
 impl Bytes {
     /// The contents of a map file without its hash, which is checked.
     pub(crate) fn of(path: &Path) -> Result<Self, MapFileError> {
-        let io = |source| MapFileError::Io { path: path.into(), source };
+        let io = |cause| MapFileError::Io { path: path.into(), cause };
         let mut file = File::open(path).map_err(io)?;
         if !file.metadata().map_err(io)?.is_file() {
             return Err(MapFileError::Unusable { path: path.into(), what: "it is not a regular file".into() });

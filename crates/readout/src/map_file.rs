@@ -48,12 +48,12 @@ pub struct MapFile<const C: usize> {
 #[derive(Debug, thiserror::Error)]
 pub enum MapFileError {
     /// Reading or writing failed.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {cause}", path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What the system says.
-        source: io::Error,
+        cause: io::Error,
     },
     /// Not a map, or not one of this version, or damaged.
     #[error("{}: {what}; build the map again with `photonlab map build`", path.display())]
@@ -75,12 +75,12 @@ impl MapHeader {
 impl<const C: usize> MapFile<C> {
     /// Writes the map beside its final name and renames it, so that no half-written map is left.
     pub fn save(&self, path: &Path) -> Result<(), MapFileError> {
-        let io = |source| MapFileError::Io { path: path.into(), source };
+        let io = |cause| MapFileError::Io { path: path.into(), cause };
         let partial = path.with_extension("partial");
         let written = self.write(&partial).and_then(|()| std::fs::rename(&partial, path));
-        written.map_err(|source| {
+        written.map_err(|cause| {
             let _ = std::fs::remove_file(&partial);
-            io(source)
+            io(cause)
         })
     }
 

@@ -52,9 +52,15 @@ impl<const C: usize> CellResult<C> {
     /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and three times
     /// what was gathered across edges.
     pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
+        let degrees = self.bias[channel].degrees_of_freedom();
+        self.bias_bound_within(channel, if degrees > 0.0 { student_t_quantile(confidence, degrees) } else { 0.0 })
+    }
+
+    /// The same from a quantile of Student's t, which one search finds for all cells of an image.
+    pub fn bias_bound_within(&self, channel: usize, quantile: f64) -> f64 {
         let bias = &self.bias[channel];
         bias.mean().unwrap_or(0.0).abs()
-            + bias.half_width(confidence).unwrap_or(0.0)
+            + quantile * bias.std_error().unwrap_or(0.0)
             + MISSING_AT_MOST * self.unresolved[channel].mean().unwrap_or(0.0).abs()
     }
 

@@ -1,0 +1,108 @@
+//! Synthetic photons: Poisson fields on flat patches and spheres, whose estimates are known without any tracing.
+
+use glam::{DAffine3, DQuat, DVec3};
+use photonlab_gather::{AreaModel, Bandwidth, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
+use photonlab_kdtree::SplitRule;
+use photonlab_measure::Replicates;
+use photonlab_photometry::{PackedDirection, PathClass, Photon};
+use photonlab_sampling::{Purpose, Stream, warp};
+use rayon::prelude::*;
+
+/// Photons of one replicate, in coordinates that are turned and moved before the map sees them, so that no law holds
+/// because a plane happens to lie along the axes.
+pub struct Field {
+    frame: DAffine3,
+    positions: Vec<[f32; 3]>,
+    photons: Vec<Photon<1>>,
+}
+
+impl Default for Field {
+    fn default() -> Self {
+        let turn = DQuat::from_axis_angle(DVec3::new(0.48, -0.6, 0.64), 1.1);
+        let frame = DAffine3::from_rotation_translation(turn, DVec3::new(0.7, -0.4, 1.9));
+        Self { frame, positions: Vec::new(), photons: Vec::new() }
+    }
+}
+
+impl Field {
+    /// Adds a homogeneous Poisson field of `density` photons per square metre on the parallelogram from `corner` along
+    /// two `edges`; each photon has flux 1 / `density`, so that the irradiance is 1, and arrives against `normal`.
+    pub fn lit(mut self, density: f64, corner: DVec3, edges: [DVec3; 2], normal: DVec3, stream: &mut Stream) -> Self {
+        for _ in 0..poisson(density * edges[0].cross(edges[1]).length(), stream) {
+            let [u, v] = stream.next2();
+            self.push(corner + u * edges[0] + v * edges[1], normal, -normal, 1.0 / density);
+        }
+        self
+    }
+
+    /// The same on the rectangle `low` to `high` of the plane z = 0, normal +z.
+    pub fn floor(self, density: f64, low: [f64; 2], high: [f64; 2], stream: &mut Stream) -> Self {
+        let edges = [DVec3::X * (high[0] - low[0]), DVec3::Y * (high[1] - low[1])];
+        self.lit(density, DVec3::new(low[0], low[1], 0.0), edges, DVec3::Z, stream)
+    }
+
+    /// The same on the inside of the unit sphere.
+    pub fn inside_of_sphere(mut self, density: f64, stream: &mut Stream) -> Self {
+        for _ in 0..poisson(density * 4.0 * std::f64::consts::PI, stream) {
+            let position = warp::square_to_uniform_sphere(stream.next2());
+            self.push(position, -position, position, 1.0 / density);
+        }
+        self
+    }
+
+    /// Adds one photon.
+    pub fn push(&mut self, position: DVec3, normal: DVec3, direction: DVec3, flux: f64) {
+        self.positions.push(self.frame.transform_point3(position).as_vec3().to_array());
+        self.photons.push(Photon {
+            flux: [flux as f32],
+            direction: PackedDirection::pack(self.frame.transform_vector3(direction).to_array()),
+            normal: PackedDirection::pack(self.frame.transform_vector3(normal).to_array()),
+            class: PathClass::Direct,
+            segments: 1,
+        });
+    }
+
+    /// Builds the map and gathers at points with their normals.
+    pub fn gather<const N: usize>(
+        self,
+        at: [(DVec3, DVec3); N],
+        bandwidth: Bandwidth,
+        area: AreaModel,
+        tests: &Tests,
+    ) -> [Estimate<1>; N] {
+        let frame = self.frame;
+        let map = PhotonMap::build(self.positions, self.photons, SplitRule::Median).expect("finite photons");
+        let mut scratch = Scratch::default();
+        at.map(|(position, normal)| {
+            let point = GatherPoint {
+                position: frame.transform_point3(position).as_vec3().to_array(),
+                normal: frame.transform_vector3(normal).as_vec3().to_array(),
+            };
+            map.gather(&point, bandwidth, area, tests, &mut scratch)
+        })
+    }
+}
+
+/// Runs independent replicates, each with a stream of its own, and collects what they return in their order.
+pub fn replicates<T: Send>(count: u64, seed: u64, one: impl Fn(&mut Stream) -> T + Sync) -> Vec<T> {
+    let run = |index| one(&mut Stream::new(seed, Purpose::Synthetic, 0, index));
+    (0..count).into_par_iter().map(run).collect()
+}
+
+/// The irradiance of one query over replicates of several queries.
+pub fn column<const N: usize>(rows: &[[Estimate<1>; N]], query: usize) -> Replicates {
+    rows.iter().map(|row| row[query].irradiance[0]).collect()
+}
+
+/// A Poisson number: by waiting times for small means, by halving large ones into independent parts, which is exact.
+fn poisson(mean: f64, stream: &mut Stream) -> u64 {
+    if mean > 30.0 {
+        return poisson(0.5 * mean, stream) + poisson(0.5 * mean, stream);
+    }
+    let (mut count, mut elapsed) = (0, -stream.next().ln());
+    while elapsed < mean {
+        count += 1;
+        elapsed -= stream.next().ln();
+    }
+    count
+}

@@ -1,0 +1,105 @@
+//! Scenes traced and read in this process, as the command does it.
+
+use std::{path::PathBuf, time::Duration};
+
+use photonlab_gather::AreaModel;
+use photonlab_readout::{Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted};
+use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_scene::{Needs, World, read::read_scene_str};
+use photonlab_trace::{Classes, Job, Limits, Traced, trace};
+
+/// Confidence of the intervals that may end a run; no test of this crate ends one by its error.
+const CONFIDENCE: f64 = 0.95;
+
+/// A scene ready for photons and readings.
+pub struct Lab {
+    /// The scene.
+    pub world: World,
+    needs: Needs,
+}
+
+struct Silent;
+
+impl Observer for Silent {
+    fn pass_done(&self, _: u64, _: Duration, _: Option<f64>) {}
+}
+
+impl Lab {
+    /// Reads a scene from its text.
+    ///
+    /// # Panics
+    /// If the text is no scene.
+    pub fn new(xml: &str) -> Self {
+        let scene = read_scene_str(xml, "test scene", &[]).unwrap_or_else(|error| panic!("{error}\n{xml}"));
+        Self { needs: Needs::of(&scene), world: World::new(scene) }
+    }
+
+    /// Follows the photons of one pass.
+    pub fn trace<const C: usize>(&self, photons: u64, seed: u64, pass: u32, keep: Classes) -> Traced<C> {
+        self.trace_within(photons, seed, pass, keep, Limits::default())
+    }
+
+    /// Follows the photons of one pass up to limits.
+    pub fn trace_within<const C: usize>(
+        &self,
+        photons: u64,
+        seed: u64,
+        pass: u32,
+        keep: Classes,
+        limits: Limits,
+    ) -> Traced<C> {
+        let lamps = Lamps::new(&self.world);
+        let plan = EmissionPlan::new(&lamps, photons).expect("photons for every lamp");
+        trace(&self.world, &lamps, &plan, &Job { seed, pass, limits, keep }).expect("a scene that absorbs")
+    }
+
+    /// Reads every meter.
+    pub fn measure<const C: usize>(&self, settings: Settings, photons: u64, passes: u64, spp: u64) -> Outcome<C> {
+        self.read(&Cell::of_meters(&self.world.scene), settings, photons, passes, spp)
+    }
+
+    /// Reads every pixel of the first sensor.
+    pub fn render<const C: usize>(&self, settings: Settings, photons: u64, passes: u64, spp: u64) -> Outcome<C> {
+        self.read(&Cell::of_sensor(&self.world.scene, 0), settings, photons, passes, spp)
+    }
+
+    fn read<const C: usize>(
+        &self,
+        cells: &[Cell],
+        settings: Settings,
+        photons: u64,
+        passes: u64,
+        samples: u64,
+    ) -> Outcome<C> {
+        let lamps = Lamps::new(&self.world);
+        let (world, needs) = (&self.world, &self.needs);
+        let session = Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
+        let wanted =
+            Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
+        let schedule = Schedule::new(&wanted, cells.len(), &session.demands());
+        session.run(cells, &schedule, &Source::Trace, &Silent).expect("a scene that can be read")
+    }
+}
+
+/// A method's settings as the command sets them when nothing else is asked for.
+pub fn settings(method: Method, seed: u64) -> Settings {
+    Settings {
+        method,
+        direct: Direct::Sampled,
+        area: AreaModel::Disc,
+        gather_rays: 1,
+        seed,
+        limits: Limits::default(),
+    }
+}
+
+/// The path of one of the project's scenes.
+pub fn scene_file(name: &str) -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../experiments/scenes").join(name)
+}
+
+/// The text of one of the project's scenes.
+pub fn scene_text(name: &str) -> String {
+    let path = scene_file(name);
+    std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}

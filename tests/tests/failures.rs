@@ -1,0 +1,141 @@
+//! How the command fails: its status, its words, and nothing else on standard output or on the disk.
+
+use photonlab_tests::{Answer, Program, scene_file};
+
+fn program() -> Program {
+    Program::new(env!("CARGO_BIN_EXE_photonlab-under-test"))
+}
+
+fn scene(name: &str) -> String {
+    scene_file(name).canonicalize().expect("one of the project's scenes").display().to_string()
+}
+
+/// Runs a line that must fail with a status and these words, and leave standard output empty.
+fn fails(program: &Program, line: &str, status: i32, words: &[&str]) -> Answer {
+    let answer = program.run(line);
+    assert_eq!(answer.status, Some(status), "`{line}`: {}{}", answer.out, answer.err);
+    assert_eq!(answer.out, "", "standard output of `{line}`");
+    for word in words {
+        assert!(answer.err.contains(word), "`{line}` should say `{word}`: {}", answer.err);
+    }
+    answer
+}
+
+#[test]
+fn a_wrong_scene_is_named_with_file_line_and_mend() {
+    let program = program();
+    fails(&program, "measure nowhere.xml", 2, &["nowhere.xml:1: scene:", "cannot be read", "give the path"]);
+    let broken = [
+        ("<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n</scene>\n", "bad.xml:"),
+        ("<scene version=\"3.0.0\">\n<shape type=\"spher\"/>\n</scene>", "bad.xml:2: shape"),
+        ("<scene version=\"3.0.0\">\n\n<shape type=\"sphere\"><float name=\"raduis\" value=\"1\"/></shape></scene>", "bad.xml:3:"),
+        ("<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape></scene>", "bad.xml:1:"),
+        ("", "bad.xml:1:"),
+    ];
+    for (text, place) in broken {
+        program.write("bad.xml", text);
+        for line in ["measure bad.xml", "render bad.xml -o image.exr", "map build bad.xml -o photons.map", "plan bad.xml"] {
+            fails(&program, line, 2, &[place]);
+        }
+    }
+    fails(&program, &format!("measure {} -D ro=0.5", scene("integrating-sphere.xml")), 2, &["\"ro\" names no default"]);
+}
+
+#[test]
+fn a_scene_that_cannot_be_read_says_what_it_lacks() {
+    let program = program();
+    let (cube, lamp) = (scene("cube.xml"), scene("square-lamp.xml"));
+    fails(&program, &format!("measure {lamp}"), 2, &["square-lamp.xml:1: scene: no meter; add a <sensor>"]);
+    fails(&program, &format!("render {cube} -o image.exr"), 2, &["cube.xml:1: scene: no camera; add a <sensor>"]);
+    fails(&program, &format!("measure {cube} --sensor Q"), 2, &["--sensor Q", "`A-face-centre`, `B`"]);
+    let text = std::fs::read_to_string(&cube).expect("readable");
+    let (start, end) = (text.find("<emitter").expect("a lamp"), text.find("</emitter>").expect("its end"));
+    program.write("dark.xml", format!("{}{}", &text[..start], &text[end + "</emitter>".len()..]));
+    program.write("black.xml", text.replace("value=\"50000\"", "value=\"0\""));
+    for line in ["measure dark.xml", "map build dark.xml -o photons.map"] {
+        fails(&program, line, 2, &["dark.xml:1: scene: no lamp; add an <emitter>"]);
+    }
+    fails(&program, "measure black.xml", 2, &["every lamp is black"]);
+    // A scene that never absorbs has no answer; that shows only while running.
+    let lossless = format!("measure {} -D rho=1 --photons 16 --spp 16", scene("integrating-sphere.xml"));
+    fails(&program, &lossless, 1, &["`wall`", "no steady state", "--max-depth"]);
+}
+
+#[test]
+fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
+    let program = program();
+    let cube = scene("cube.xml");
+    for (options, word) in [
+        ("--nonsense 3", "--nonsense"),
+        ("--method radius --k 5", "--k is not used by the method radius"),
+        ("--method path --photons 100", "--photons is not used by the method path"),
+        ("--method final-gather --direct photons", "--direct photons is not used"),
+        ("--method nearest --gather-rays 4", "--gather-rays is not used"),
+        ("--method path --map photons.map", "--map is not used"),
+        ("--k 5 --radius 1", "no method uses all of --k, --radius"),
+        ("--size 8x8", "--size is for images"),
+        ("--method nearest --k 1", "--k must be at least 2"),
+        ("--photons 0", "must be at least 1"),
+        ("--photons 1.5", "not a whole number"),
+        ("--radius 0", "above 0"),
+        ("--radius nan", "above 0"),
+        ("--target-error 0%", "above 0"),
+        ("--confidence 1", "below 1"),
+        ("--method bins", "not built yet"),
+        ("--cache", "not built yet"),
+        ("--kernel cone", "not built yet"),
+        ("--area clipped", "not built yet"),
+        ("--device gpu", "not built yet"),
+    ] {
+        fails(&program, &format!("measure {cube} {options}"), 2, &[word]);
+    }
+    fails(&program, &format!("map build {cube} -o photons.map --k 5"), 2, &["--k is not used when a map is built"]);
+    let cornell = scene("cornell-box.xml");
+    fails(&program, &format!("render {cornell} -o image.exr --false-colour"), 2, &["ends in .png"]);
+    fails(&program, &format!("render {cornell} -o image.exr --size 0x5"), 2, &["1 to 65536"]);
+    fails(&program, "", 2, &["Usage"]);
+}
+
+#[test]
+fn an_output_that_cannot_be_written_leaves_nothing() {
+    let program = program();
+    let (cube, cornell) = (scene("cube.xml"), scene("cornell-box.xml"));
+    let quick = "--size 4x4 --spp 2 --photons 100";
+    fails(&program, &format!("render {cornell} -o none/image.exr {quick}"), 2, &["the folder none does not exist"]);
+    fails(&program, &format!("render {cornell} -o image.jpg {quick}"), 2, &["must end in .exr or .png"]);
+    fails(&program, &format!("map build {cube} -o none/photons.map"), 2, &["the folder none does not exist"]);
+    std::fs::create_dir(program.path("folder.exr")).expect("writable");
+    fails(&program, &format!("render {cornell} -o folder.exr {quick}"), 2, &["this is a folder"]);
+    fails(&program, &format!("map build {cube} -o folder.exr"), 2, &["this is a folder"]);
+    let left: Vec<_> = std::fs::read_dir(program.folder()).expect("readable").map(|e| e.expect("entry").file_name()).collect();
+    assert_eq!(left, ["folder.exr"]);
+}
+
+#[test]
+fn a_map_that_does_not_fit_is_refused() {
+    let program = program();
+    let (cube, sphere) = (scene("cube.xml"), scene("integrating-sphere.xml"));
+    program.succeed(&format!("map build {cube} -o good.map --photons 2000 --passes 2"));
+    program.succeed(&format!("map build {cube} -o indirect.map --photons 2000 --passes 2 --direct sampled"));
+    let with = |map: &str| format!("measure {cube} --map {map}");
+    fails(&program, &format!("measure {sphere} --map good.map"), 2, &["good.map: this map is of another scene"]);
+    fails(&program, &with("indirect.map"), 2, &["no direct photons, which the method final-gather needs"]);
+    fails(&program, &format!("{} --photons 5", with("good.map")), 2, &["--photons was decided when the map was built"]);
+    fails(&program, &with("absent.map"), 2, &["absent.map"]);
+    program.succeed(&format!("{} --method radius", with("indirect.map")));
+
+    let good = program.bytes("good.map");
+    let mut worse = vec![Vec::new(), b"PHOTONLB".to_vec(), good[..good.len() - 1].to_vec(), good[..good.len() / 2].to_vec()];
+    worse.push([good.as_slice(), b"x"].concat());
+    for at in [0, 8, 12, 20, good.len() / 2, good.len() - 1] {
+        let mut flipped = good.clone();
+        flipped[at] ^= 0x40;
+        worse.push(flipped);
+    }
+    worse.push(std::fs::read(&cube).expect("readable"));
+    for bytes in worse {
+        program.write("bad.map", &bytes);
+        fails(&program, &with("bad.map"), 2, &["bad.map:", "build the map again"]);
+        fails(&program, "map info bad.map", 2, &["bad.map:"]);
+    }
+}
