@@ -58,14 +58,7 @@ impl Layers {
             let value = Text::new_or_none(value).unwrap_or_else(|| Text::from("not expressible"));
             attributes.other.insert(Text::from(name.as_str()), AttributeValue::Text(value));
         }
-        let size = (self.value.width, self.value.height);
-        let layer =
-            Layer::new(size, attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.into_iter().collect()));
-        let mut bytes = Cursor::new(Vec::new());
-        ExrImage::from_layer(layer).write().non_parallel().to_buffered(&mut bytes)?;
-        let mut bytes = bytes.into_inner();
-        sort_attributes(&mut bytes)?;
-        Ok(bytes)
+        encode_exr(&self.value, channels, attributes)
     }
 
     /// Tone-mapped for looking at: exposed so that the brightest percent saturates, sRGB curve.
@@ -92,6 +85,14 @@ impl Image {
         encode_png(self.width, self.height, &rgb)
     }
 
+    /// The image alone as EXR, linear, 32-bit float.
+    pub(crate) fn to_exr(&self) -> anyhow::Result<Vec<u8>> {
+        let channel = |(c, name): (usize, &&str)| {
+            AnyChannel::new(*name, FlatSamples::F32(self.pixels.iter().map(|pixel| pixel[c]).collect()))
+        };
+        encode_exr(self, ["R", "G", "B"].iter().enumerate().map(channel).collect(), LayerAttributes::default())
+    }
+
     /// Several images of one height in a row, with a white gap of two pixels between them.
     pub(crate) fn side_by_side(images: &[&Image], white: f32) -> Image {
         const GAP: usize = 2;
@@ -108,6 +109,21 @@ impl Image {
         }
         row
     }
+}
+
+/// One part with the channels of an image's size.
+fn encode_exr(
+    image: &Image,
+    channels: Vec<AnyChannel<FlatSamples>>,
+    attributes: LayerAttributes,
+) -> anyhow::Result<Vec<u8>> {
+    let channels = AnyChannels::sort(channels.into_iter().collect());
+    let layer = Layer::new((image.width, image.height), attributes, Encoding::FAST_LOSSLESS, channels);
+    let mut bytes = Cursor::new(Vec::new());
+    ExrImage::from_layer(layer).write().non_parallel().to_buffered(&mut bytes)?;
+    let mut bytes = bytes.into_inner();
+    sort_attributes(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Writes an 8-bit RGB image.

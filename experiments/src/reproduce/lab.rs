@@ -34,12 +34,24 @@ impl Lab {
         wanted: &Wanted,
         confidence: f64,
     ) -> Result<Outcome<C>, ReadError> {
+        self.read_from(cells, settings, wanted, confidence, &Source::Trace)
+    }
+
+    /// Reads cells with photons from a saved map, or traced.
+    pub(super) fn read_from<const C: usize>(
+        &self,
+        cells: &[Cell],
+        settings: Settings,
+        wanted: &Wanted,
+        confidence: f64,
+        source: &Source<'_, C>,
+    ) -> Result<Outcome<C>, ReadError> {
         let lamps = Lamps::new(&self.world);
         let is_image = cells.first().is_some_and(|cell| matches!(cell.target, Target::Pixel { .. }));
         let error_over = if is_image { ErrorOver::Image } else { ErrorOver::Worst };
         let session =
             Session { world: &self.world, lamps: &lamps, needs: &self.needs, settings, confidence, error_over };
         let schedule = Schedule::new(wanted, cells.len(), &session.demands());
-        session.run(cells, &schedule, &Source::Trace, &Silent)
+        session.run(cells, &schedule, source, &Silent)
     }
 }

@@ -2,11 +2,13 @@
 
 mod claims;
 mod context;
+mod cpu_clock;
 mod date;
 mod definition;
 mod field;
 mod lab;
 mod report;
+mod strategy;
 
 use std::path::{Path, PathBuf};
 

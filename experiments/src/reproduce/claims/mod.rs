@@ -1,6 +1,8 @@
 //! The claims, one file each.
 
+mod figure_1;
 mod knn_bias;
+mod view_independence;
 
 use photonlab_measure::Record;
 
@@ -10,16 +12,20 @@ use super::context::Context;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Claim {
     KnnBias,
+    ViewIndependence,
+    Figure1,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 1] = [Claim::KnnBias];
+    pub(super) const ALL: [Claim; 3] = [Claim::KnnBias, Claim::ViewIndependence, Claim::Figure1];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
         match self {
             Claim::KnnBias => "knn-bias",
+            Claim::ViewIndependence => "view-independence",
+            Claim::Figure1 => "figure-1",
         }
     }
 
@@ -27,6 +33,8 @@ impl Claim {
     pub(super) fn definition(self) -> &'static str {
         match self {
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
+            Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
+            Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
         }
     }
 
@@ -34,6 +42,8 @@ impl Claim {
     pub(super) fn run(self, context: &Context) -> anyhow::Result<Record> {
         match self {
             Claim::KnnBias => knn_bias::run(context),
+            Claim::ViewIndependence => view_independence::run(context),
+            Claim::Figure1 => figure_1::run(context),
         }
     }
 }

@@ -1,0 +1,69 @@
+//! The strategies that claims compare.
+
+use photonlab_gather::AreaModel;
+use photonlab_readout::{Direct, Method, Settings};
+use photonlab_trace::Limits;
+
+/// One way to read a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Strategy {
+    /// File name part.
+    pub(super) id: &'static str,
+    /// Name in figures and tables.
+    pub(super) title: &'static str,
+    method: Method,
+    direct: Direct,
+}
+
+/// Photons of the nearest-photon strategies.
+const K: usize = 50;
+
+impl Strategy {
+    /// The paper's direct view of the map: the k nearest, all light from photons.
+    pub(super) const NEAREST_DIRECT_VIEW: Strategy = Strategy {
+        id: "nearest-direct-view",
+        title: "nearest, all light from photons",
+        method: Method::Nearest { k: K },
+        direct: Direct::Photons,
+    };
+    /// The same with a fixed radius.
+    pub(super) const RADIUS_DIRECT_VIEW: Strategy = Strategy {
+        id: "radius-direct-view",
+        title: "radius, all light from photons",
+        method: Method::Radius { radius: None },
+        direct: Direct::Photons,
+    };
+    /// Direct light sampled, the rest from the map at the point.
+    pub(super) const NEAREST: Strategy = Strategy {
+        id: "nearest",
+        title: "nearest, direct light sampled",
+        method: Method::Nearest { k: K },
+        direct: Direct::Sampled,
+    };
+    /// Final gather.
+    pub(super) const FINAL_GATHER: Strategy = Strategy {
+        id: "final-gather",
+        title: "final gather",
+        method: Method::FinalGather { radius: None },
+        direct: Direct::Sampled,
+    };
+    /// Path tracing.
+    pub(super) const PATH: Strategy =
+        Strategy { id: "path", title: "path tracing", method: Method::Path, direct: Direct::Sampled };
+
+    /// Every strategy, the paper's direct view first.
+    pub(super) const ALL: [Strategy; 5] =
+        [Self::NEAREST_DIRECT_VIEW, Self::RADIUS_DIRECT_VIEW, Self::NEAREST, Self::FINAL_GATHER, Self::PATH];
+
+    /// Its settings at a seed.
+    pub(super) fn settings(&self, seed: u64) -> Settings {
+        Settings {
+            method: self.method,
+            direct: self.direct,
+            area: AreaModel::Disc,
+            gather_rays: 1,
+            seed,
+            limits: Limits::default(),
+        }
+    }
+}
