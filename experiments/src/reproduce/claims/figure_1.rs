@@ -83,7 +83,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         let first = first.expect("a definition asks for at least one replicate");
         tried.push(Tried { strategy, rms, mean, seconds, first });
     }
-    save_pictures(context, &mut found, &tried, &truth)?;
+    save_pictures(context, &mut found, &tried, &truth, &judged)?;
     found.figures.push(chart(&tried, p.replicates));
     conclude(context, found, &p, &tried)
 }
@@ -164,7 +164,13 @@ fn errors(image: &Image, truth: &Image, judged: &[bool]) -> (f64, f64) {
     ((squares / count).sqrt() / (sum_truth / count), sum / sum_truth - 1.0)
 }
 
-fn save_pictures(context: &Context, found: &mut Findings, tried: &[Tried], truth: &Image) -> anyhow::Result<()> {
+fn save_pictures(
+    context: &Context,
+    found: &mut Findings,
+    tried: &[Tried],
+    truth: &Image,
+    judged: &[bool],
+) -> anyhow::Result<()> {
     let white = truth.white();
     let mean = truth.pixels.iter().map(|p| (p[0] + p[1] + p[2]) / 3.0).sum::<f32>() / truth.pixels.len() as f32;
     let mut put = |name: &str, bytes: &[u8], title: String, caption: &str| -> anyhow::Result<()> {
@@ -178,16 +184,18 @@ fn save_pictures(context: &Context, found: &mut Findings, tried: &[Tried], truth
     let caption = format!("From the left: {}, control. All exposed alike.", order.join("; "));
     put("strategies.png", &Image::side_by_side(&row, white).to_png(white)?, "Every strategy".into(), &caption)?;
     for t in tried {
-        let difference = |(a, b): (&[f32; 3], &[f32; 3])| std::array::from_fn(|c| 100.0 * (a[c] - b[c]).abs() / mean);
-        let pixels = t.first.pixels.iter().zip(&truth.pixels).map(difference).collect();
+        let difference = |((a, b), judged): ((&[f32; 3], &[f32; 3]), &bool)| {
+            std::array::from_fn(|c| if *judged { 100.0 * (a[c] - b[c]).abs() / mean } else { 0.0 })
+        };
+        let pixels = t.first.pixels.iter().zip(&truth.pixels).zip(judged).map(difference).collect();
         let image = Image { width: truth.width, height: truth.height, pixels };
-        let bytes = false_colour::png(&image, "% mean", Some(60.0))?;
+        let bytes = false_colour::png(&image, "%", Some(60.0))?;
         let title = format!("Difference from the control: {}", t.strategy.title);
         put(
             &format!("{}-difference.png", t.strategy.id),
             &bytes,
             title,
-            "In percent of the control's mean, mean of channels.",
+            "In percent of the control's mean, mean of channels; the lamp's pixels and their neighbours are left out.",
         )?;
     }
     for (name, image) in tried.iter().map(|t| (t.strategy.id, &t.first)).chain([("control", truth)]) {

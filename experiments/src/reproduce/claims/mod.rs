@@ -1,6 +1,7 @@
 //! The claims, one file each.
 
 mod figure_1;
+mod final_gather_rays;
 mod knn_bias;
 mod view_independence;
 
@@ -12,18 +13,21 @@ use super::context::Context;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Claim {
     KnnBias,
+    FinalGatherRays,
     ViewIndependence,
     Figure1,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 3] = [Claim::KnnBias, Claim::ViewIndependence, Claim::Figure1];
+    pub(super) const ALL: [Claim; 4] =
+        [Claim::KnnBias, Claim::FinalGatherRays, Claim::ViewIndependence, Claim::Figure1];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
         match self {
             Claim::KnnBias => "knn-bias",
+            Claim::FinalGatherRays => "final-gather-rays",
             Claim::ViewIndependence => "view-independence",
             Claim::Figure1 => "figure-1",
         }
@@ -33,6 +37,7 @@ impl Claim {
     pub(super) fn definition(self) -> &'static str {
         match self {
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
+            Claim::FinalGatherRays => include_str!("../../../definitions/final-gather-rays.toml"),
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
         }
@@ -42,6 +47,7 @@ impl Claim {
     pub(super) fn run(self, context: &Context) -> anyhow::Result<Record> {
         match self {
             Claim::KnnBias => knn_bias::run(context),
+            Claim::FinalGatherRays => final_gather_rays::run(context),
             Claim::ViewIndependence => view_independence::run(context),
             Claim::Figure1 => figure_1::run(context),
         }
