@@ -89,7 +89,11 @@ impl Family {
         let exact: Replicates = [expected, expected].into_iter().collect();
         let p_value = welch_test(measured, &exact).map_or(f64::NAN, |test| test.p_value);
         let (mean, error) = (measured.mean().unwrap_or(f64::NAN), measured.std_error().unwrap_or(f64::NAN));
-        self.compare(what, p_value, format!("expected {expected:.8}, measured {mean:.8} with standard error {error:.2e}"));
+        self.compare(
+            what,
+            p_value,
+            format!("expected {expected:.8}, measured {mean:.8} with standard error {error:.2e}"),
+        );
     }
 
     /// Do counts follow expected counts of the same total? By chi-square.
@@ -111,7 +115,11 @@ impl Family {
     /// Do independent values follow a distribution? By Kolmogorov and Smirnov.
     pub fn distribution(&mut self, what: impl Display, values: &[f64], cdf: impl Fn(f64) -> f64) {
         let test = kolmogorov_smirnov_test(values, cdf).unwrap_or_else(|error| panic!("{what}: {error}"));
-        self.compare(what, test.p_value, format!("largest distance {:.5} over {} values", test.statistic, values.len()));
+        self.compare(
+            what,
+            test.p_value,
+            format!("largest distance {:.5} over {} values", test.statistic, values.len()),
+        );
     }
 
     /// Do independent trials succeed with a probability? By the exact binomial law, two-sided.

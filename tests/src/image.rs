@@ -41,11 +41,7 @@ impl Exr {
             exr::meta::attribute::AttributeValue::Text(text) => Some((name.to_string(), text.to_string())),
             _ => None,
         });
-        Self {
-            size: [layer.size.0, layer.size.1],
-            channels: channels.collect(),
-            attributes: texts.collect(),
-        }
+        Self { size: [layer.size.0, layer.size.1], channels: channels.collect(), attributes: texts.collect() }
     }
 
     /// The samples of a channel.

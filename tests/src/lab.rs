@@ -3,7 +3,9 @@
 use std::{path::PathBuf, time::Duration};
 
 use photonlab_gather::AreaModel;
-use photonlab_readout::{Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted};
+use photonlab_readout::{
+    Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
+};
 use photonlab_sampling::{EmissionPlan, Lamps};
 use photonlab_scene::{Needs, World, read::read_scene_str};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
@@ -73,7 +75,8 @@ impl Lab {
     ) -> Outcome<C> {
         let lamps = Lamps::new(&self.world);
         let (world, needs) = (&self.world, &self.needs);
-        let session = Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
+        let session =
+            Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
         let wanted =
             Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
         let schedule = Schedule::new(&wanted, cells.len(), &session.demands());
@@ -83,14 +86,7 @@ impl Lab {
 
 /// A method's settings as the command sets them when nothing else is asked for.
 pub fn settings(method: Method, seed: u64) -> Settings {
-    Settings {
-        method,
-        direct: Direct::Sampled,
-        area: AreaModel::Disc,
-        gather_rays: 1,
-        seed,
-        limits: Limits::default(),
-    }
+    Settings { method, direct: Direct::Sampled, area: AreaModel::Disc, gather_rays: 1, seed, limits: Limits::default() }
 }
 
 /// The path of one of the project's scenes.

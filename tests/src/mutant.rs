@@ -86,7 +86,8 @@ impl Mutant {
         let malformed = |what: &str| MutantError::Malformed(format!("{name}: {what}"));
         let mut lines = text.lines().filter(|line| !line.trim().is_empty());
         let what = lines.next().ok_or_else(|| malformed("empty"))?.to_string();
-        let kills = lines.next().and_then(|line| line.strip_prefix("kills: ")).ok_or_else(|| malformed("no `kills:`"))?;
+        let kills =
+            lines.next().and_then(|line| line.strip_prefix("kills: ")).ok_or_else(|| malformed("no `kills:`"))?;
         let (test_file, test) = kills.split_once(' ').ok_or_else(|| malformed("`kills:` needs a file and a test"))?;
         let mut changes = Vec::new();
         let mut file = None;
@@ -176,7 +177,9 @@ mod tests {
 
     #[test]
     fn what_is_malformed_is_refused() {
-        for wrong in ["", "What.\n", "What.\nkills: laws t\n", "What.\nkills: laws t\n+ x\n", "W.\nkills: l t\n--- a\n- x\n"] {
+        for wrong in
+            ["", "What.\n", "What.\nkills: laws t\n", "What.\nkills: laws t\n+ x\n", "W.\nkills: l t\n--- a\n- x\n"]
+        {
             assert!(matches!(Mutant::parse("wrong", wrong), Err(MutantError::Malformed(_))), "{wrong:?}");
         }
     }

@@ -85,7 +85,8 @@ impl Program {
 
     fn answer(&self, command: &mut Command) -> Answer {
         let start = Instant::now();
-        let Output { status, stdout, stderr } = command.current_dir(self.folder()).output().expect("the program starts");
+        let Output { status, stdout, stderr } =
+            command.current_dir(self.folder()).output().expect("the program starts");
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("UTF-8");
         Answer { status: status.code(), out: text(stdout), err: text(stderr), took: start.elapsed() }
     }

@@ -109,10 +109,17 @@ fn all_flux_is_accounted_for() {
                 let (emitted, accounted) = (ledger.emitted[channel], total.accounted()[channel]);
                 assert!((accounted / emitted - 1.0).abs() < 1e-10, "{name} {max_segments:?}: {emitted} {accounted}");
                 let at_surfaces: f64 = ledger.surfaces.iter().map(|book| book.absorbed[channel]).sum();
-                assert!((at_surfaces - total.absorbed[channel]).abs() < 1e-10 * emitted, "{name}: surfaces {at_surfaces}");
+                assert!(
+                    (at_surfaces - total.absorbed[channel]).abs() < 1e-10 * emitted,
+                    "{name}: surfaces {at_surfaces}"
+                );
             }
             let cut = total.cut_off.max();
-            assert_eq!(cut > 0.0, max_segments.is_some() || name == "ball lens", "{name} {max_segments:?}: cut off {cut}");
+            assert_eq!(
+                cut > 0.0,
+                max_segments.is_some() || name == "ball lens",
+                "{name} {max_segments:?}: cut off {cut}"
+            );
         }
     }
     let furnace = Furnace::new(Colour([1.0]), Colour([0.7])).expect("in range").cube_xml(1.0, &[]);

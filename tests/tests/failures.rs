@@ -28,13 +28,21 @@ fn a_wrong_scene_is_named_with_file_line_and_mend() {
     let broken = [
         ("<scene version=\"3.0.0\">\n<shape type=\"sphere\">\n</scene>\n", "bad.xml:"),
         ("<scene version=\"3.0.0\">\n<shape type=\"spher\"/>\n</scene>", "bad.xml:2: shape"),
-        ("<scene version=\"3.0.0\">\n\n<shape type=\"sphere\"><float name=\"raduis\" value=\"1\"/></shape></scene>", "bad.xml:3:"),
-        ("<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape></scene>", "bad.xml:1:"),
+        (
+            "<scene version=\"3.0.0\">\n\n<shape type=\"sphere\"><float name=\"raduis\" value=\"1\"/></shape></scene>",
+            "bad.xml:3:",
+        ),
+        (
+            "<scene version=\"3.0.0\"><shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape></scene>",
+            "bad.xml:1:",
+        ),
         ("", "bad.xml:1:"),
     ];
     for (text, place) in broken {
         program.write("bad.xml", text);
-        for line in ["measure bad.xml", "render bad.xml -o image.exr", "map build bad.xml -o photons.map", "plan bad.xml"] {
+        for line in
+            ["measure bad.xml", "render bad.xml -o image.exr", "map build bad.xml -o photons.map", "plan bad.xml"]
+        {
             fails(&program, line, 2, &[place]);
         }
     }
@@ -107,7 +115,8 @@ fn an_output_that_cannot_be_written_leaves_nothing() {
     std::fs::create_dir(program.path("folder.exr")).expect("writable");
     fails(&program, &format!("render {cornell} -o folder.exr {quick}"), 2, &["this is a folder"]);
     fails(&program, &format!("map build {cube} -o folder.exr"), 2, &["this is a folder"]);
-    let left: Vec<_> = std::fs::read_dir(program.folder()).expect("readable").map(|e| e.expect("entry").file_name()).collect();
+    let left: Vec<_> =
+        std::fs::read_dir(program.folder()).expect("readable").map(|e| e.expect("entry").file_name()).collect();
     assert_eq!(left, ["folder.exr"]);
 }
 
@@ -125,7 +134,8 @@ fn a_map_that_does_not_fit_is_refused() {
     program.succeed(&format!("{} --method radius", with("indirect.map")));
 
     let good = program.bytes("good.map");
-    let mut worse = vec![Vec::new(), b"PHOTONLB".to_vec(), good[..good.len() - 1].to_vec(), good[..good.len() / 2].to_vec()];
+    let mut worse =
+        vec![Vec::new(), b"PHOTONLB".to_vec(), good[..good.len() - 1].to_vec(), good[..good.len() / 2].to_vec()];
     worse.push([good.as_slice(), b"x"].concat());
     for at in [0, 8, 12, 20, good.len() / 2, good.len() - 1] {
         let mut flipped = good.clone();

@@ -30,9 +30,8 @@ fn floor(low: [f64; 2], high: [f64; 2], stream: &mut Stream) -> Field {
 #[test]
 fn in_an_even_field_the_estimate_is_a_poisson_count_over_the_disc() {
     let mut family = Family::new("fixed radius, even field");
-    let rows = replicates(20_000, seed(1), |stream| {
-        gather(floor([-2.5; 2], [2.5; 2], stream), [[0.0; 2]], AreaModel::Disc)
-    });
+    let rows =
+        replicates(20_000, seed(1), |stream| gather(floor([-2.5; 2], [2.5; 2], stream), [[0.0; 2]], AreaModel::Disc));
     let estimate = column(&rows, 0);
     family.mean("mean", &estimate, 1.0);
     let squares: Replicates = rows.iter().map(|row| (row[0].irradiance[0] - 1.0).powi(2)).collect();
@@ -78,8 +77,7 @@ fn unequal_photons_raise_the_variance_as_campbell_says() {
 fn the_spheres_whole_area_gives_a_quarter_and_the_disc_the_whole() {
     let mut family = Family::new("sphere's area");
     for (area, factor) in [(AreaModel::Disc, 1.0), (AreaModel::Sphere, 0.25)] {
-        let rows =
-            replicates(4000, seed(3), |stream| gather(floor([-2.5; 2], [2.5; 2], stream), [[0.0; 2]], area));
+        let rows = replicates(4000, seed(3), |stream| gather(floor([-2.5; 2], [2.5; 2], stream), [[0.0; 2]], area));
         family.mean(format!("{area:?}"), &column(&rows, 0), factor);
     }
     family.decide();

@@ -18,8 +18,7 @@ fn final_gather_sees_an_even_radiance_up_to_edges_and_corners() {
     let places =
         [[0.0, 0.0], [0.5, 0.3], [0.9, 0.0], [0.99, 0.2], [0.9999, 0.0], [0.9, 0.9], [0.99, 0.99], [0.9999, 0.9999]];
     let lab = Lab::new(&furnace().cube_xml(HALF_EDGE, &places));
-    let outcome =
-        lab.measure::<1>(settings(Method::FinalGather { radius: None }, seed(600)), 1_000_000, 32, 1 << 15);
+    let outcome = lab.measure::<1>(settings(Method::FinalGather { radius: None }, seed(600)), 1_000_000, 32, 1 << 15);
     for (place, cell) in places.iter().zip(&outcome.cells) {
         family.reading(format!("{place:?}"), cell, 0, furnace().total_radiance()[0]);
     }

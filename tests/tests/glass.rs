@@ -39,7 +39,10 @@ fn a_lamp_in_a_glass_block_ends_and_its_trapped_light_is_booked_as_cut_off() {
         let counted = ledger.trapped_paths as f64 / photons as f64;
         assert!((share - counted).abs() < 1e-12, "flux cut off {share}, paths cut off {counted}");
         let all = (total.cut_off[0] + total.escaped[0]) / ledger.emitted[0];
-        assert!((all - 1.0).abs() < 1e-12, "glass absorbs nothing and adds nothing: {all} of the flux is accounted for");
+        assert!(
+            (all - 1.0).abs() < 1e-12,
+            "glass absorbs nothing and adds nothing: {all} of the flux is accounted for"
+        );
     }
     family.decide();
 }
@@ -66,7 +69,10 @@ fn a_slab_lets_through_what_all_its_reflections_together_do() {
         family.proportion(format!("n = {index}"), landed, photons, (1.0 - reflected) / (1.0 + reflected));
         let flux = traced.ledger.surfaces[1].incident[0] / traced.ledger.emitted[0];
         let share = landed as f64 / photons as f64;
-        assert!((flux - share).abs() < 1e-9, "flux {flux} of the emitted, photons {share}: glass changes no photon's flux");
+        assert!(
+            (flux - share).abs() < 1e-9,
+            "flux {flux} of the emitted, photons {share}: glass changes no photon's flux"
+        );
     }
     family.decide();
 }

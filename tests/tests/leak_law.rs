@@ -79,9 +79,8 @@ fn without_a_normal_test_the_nearest_follow_the_creases_law() {
     for (degrees, d) in [(90.0_f64, 0.0), (90.0, 0.5), (60.0, 0.25), (120.0, 0.75)] {
         let theta = degrees.to_radians();
         let bandwidth = Bandwidth::Nearest { k: k as usize, max_radius: f64::INFINITY };
-        let rows = replicates(10_000, seed(220), |stream| {
-            gather(crease(theta, 4.5 * r0, stream), [d * r0], bandwidth, &NONE)
-        });
+        let rows =
+            replicates(10_000, seed(220), |stream| gather(crease(theta, 4.5 * r0, stream), [d * r0], bandwidth, &NONE));
         let law = nearest_law::crease(k, d, theta, Counted::AllButLast);
         family.mean(format!("{degrees} degrees, d = {d}"), &column(&rows, 0), law.mean);
     }
@@ -108,9 +107,8 @@ fn without_tests_a_thin_wall_leaks_by_its_law() {
     let r0 = (f64::from(k) / (PI * DENSITY)).sqrt();
     let bandwidth = Bandwidth::Nearest { k: k as usize, max_radius: f64::INFINITY };
     for h in [0.5, 1.0, 2.0] {
-        let rows = replicates(10_000, seed(231), |stream| {
-            gather(wall(h * r0, 5.0 * r0, stream), [0.0], bandwidth, &NONE)
-        });
+        let rows =
+            replicates(10_000, seed(231), |stream| gather(wall(h * r0, 5.0 * r0, stream), [0.0], bandwidth, &NONE));
         let law = nearest_law::thin_wall(k, h, Counted::AllButLast);
         family.mean(format!("k = {k}, h = {h}"), &column(&rows, 0), law.mean);
     }
@@ -123,8 +121,7 @@ fn with_either_test_nothing_leaks_through_a_wall() {
     let nearest = Bandwidth::Nearest { k: 20, max_radius: 10.0 };
     for tests in [NORMAL, SIDE, Tests::default()] {
         for (h, bandwidth) in [(1e-4, Bandwidth::Radius(1.0)), (0.5, Bandwidth::Radius(1.0)), (0.1, nearest)] {
-            let rows =
-                replicates(50, seed(240), |stream| gather(wall(h, 2.5, stream), [0.0], bandwidth, &tests));
+            let rows = replicates(50, seed(240), |stream| gather(wall(h, 2.5, stream), [0.0], bandwidth, &tests));
             for [found] in &rows {
                 assert_eq!((found.irradiance[0], found.photons), (0.0, 0), "h = {h}, {bandwidth:?}, {tests:?}");
             }

@@ -70,7 +70,8 @@ fn check_interval(reading: &Value) {
 fn check_books(ledger: &Value, channels: usize) {
     for channel in 0..channels {
         let flux = |name: &str| number(&ledger[name][channel]);
-        let (in_all, fates) = (flux("emitted") + flux("roulette"), flux("absorbed") + flux("escaped") + flux("cut_off"));
+        let (in_all, fates) =
+            (flux("emitted") + flux("roulette"), flux("absorbed") + flux("escaped") + flux("cut_off"));
         assert!((in_all / fates - 1.0).abs() < 1e-9, "{in_all} against {fates}: {ledger}");
     }
 }
@@ -85,7 +86,9 @@ fn standard_output_carries_the_result_alone() {
     serde_json::from_str::<Value>(&json.success("measure --json")).expect("one JSON value");
     let table = program.run(&format!("measure {cube} --photons 2000"));
     assert!(table.out.contains("A-face-centre") && !table.out.contains("note:"), "{}", table.out);
-    for line in ["render LENS -o image.exr --size 4x4 --spp 4 --photons 2000", "map build LENS -o photons.map --photons 2000"] {
+    for line in
+        ["render LENS -o image.exr --size 4x4 --spp 4 --photons 2000", "map build LENS -o photons.map --photons 2000"]
+    {
         assert_eq!(program.succeed(&line.replace("LENS", &lens)), "", "{line}");
     }
     assert!(program.succeed("--help").contains("Usage"));
@@ -103,7 +106,8 @@ fn a_wanted_error_is_reached_by_every_reading() {
         // The interval in the JSON adds the uncertainty of the bias bound at the same confidence, as the stop does.
         assert!(error <= 0.015, "asked for 1.5 %, got {:.2} %: {reading}", 100.0 * error);
     }
-    let counted = program.measure(&format!("{} --target-error 1e-6 --passes 3 --spp 30 --photons 3000", scene("cube.xml")));
+    let counted =
+        program.measure(&format!("{} --target-error 1e-6 --passes 3 --spp 30 --photons 3000", scene("cube.xml")));
     assert_eq!(counted["stopped"], "count", "a count given beside an error ends the run too");
 }
 
@@ -131,7 +135,10 @@ fn a_time_limit_ends_the_run_in_time() {
 #[test]
 fn an_interrupt_leaves_no_file() {
     let program = program();
-    let line = format!("photonlab render {} -o image.exr --time-limit 60 & sleep 1; kill -INT $!; wait $!", scene("cornell-box.xml"));
+    let line = format!(
+        "photonlab render {} -o image.exr --time-limit 60 & sleep 1; kill -INT $!; wait $!",
+        scene("cornell-box.xml")
+    );
     // A background job of a shell without job control ignores SIGINT unless the program asks for it, as this one does.
     let Some(answer) = program.shell(&line.replace("photonlab ", "\"$PHOTONLAB\" ")) else {
         println!("NOT CHECKED: an interrupt (no sh)");

@@ -9,7 +9,8 @@ use photonlab_tests::{Exr, ImageError, OpenImageIo, Program, scene_file};
 
 /// Renders a small Cornell box and returns the image's path.
 fn render(program: &Program, seed: u32, passes: u32, name: &str) -> PathBuf {
-    let scene = scene_file("cornell-box.xml").canonicalize().expect("one of the project's scenes").display().to_string();
+    let scene =
+        scene_file("cornell-box.xml").canonicalize().expect("one of the project's scenes").display().to_string();
     let counts = format!("--photons 40000 --passes {passes} --spp 64");
     program.succeed(&format!("render {scene} --size 24x20 {counts} --seed {seed} -o {name}"));
     program.path(name)
@@ -25,7 +26,8 @@ const PRINTED: f64 = 1e-5;
 #[test]
 fn both_metrics_agree_on_equal_and_on_different_images() {
     let program = program();
-    let [a, same, other] = [(1, "a.exr"), (1, "same.exr"), (2, "other.exr")].map(|(s, name)| render(&program, s, 16, name));
+    let [a, same, other] =
+        [(1, "a.exr"), (1, "same.exr"), (2, "other.exr")].map(|(s, name)| render(&program, s, 16, name));
     let read = [&a, &same, &other].map(|path| Exr::read(path));
     assert_eq!(read[0].rms_difference(&read[1]), Ok(0.0), "the same seed");
     let ours = read[0].rms_difference(&read[2]).expect("finite images of one size");

@@ -55,7 +55,10 @@ fn one_two_and_seven_threads_give_the_same_bits() {
             assert!(*one == many, "file {i} differs with {threads} threads: {} and {} bytes", one.len(), many.len());
         }
     }
-    assert!(fixed_lines(&program.succeed(&format!("measure {cube} --photons 20011 --spp 300 --seed 6 --json"))) != text_of_one[0]);
+    assert!(
+        fixed_lines(&program.succeed(&format!("measure {cube} --photons 20011 --spp 300 --seed 6 --json")))
+            != text_of_one[0]
+    );
 }
 
 fn command(measured: &Value) -> String {
@@ -135,7 +138,9 @@ fn a_saved_map_reads_as_the_run_that_traced_it() {
         assert_eq!(again["readings"], read["readings"], "{fixed}");
     }
     let told = program.succeed("map info photons.map");
-    for line in ["emitted paths   30001", "passes          5", "seed            8", "classes         direct caustic indirect"] {
+    for line in
+        ["emitted paths   30001", "passes          5", "seed            8", "classes         direct caustic indirect"]
+    {
         assert!(told.contains(line), "`{line}` in {told}");
     }
 }

@@ -34,7 +34,11 @@ fn relative_rmse(lamp: &RectangularLamp, cells: usize, passes: u64, spp: u64, se
 fn an_image_of_the_square_lamp_is_right_to_a_thousandth() {
     let start = Instant::now();
     let error = relative_rmse(&RectangularLamp::SQUARE, 128, 2, 512, seed(800));
-    println!("128 x 128 pixels, 512 points each: RMSE {:.4} % in {:.1} s", 100.0 * error, start.elapsed().as_secs_f64());
+    println!(
+        "128 x 128 pixels, 512 points each: RMSE {:.4} % in {:.1} s",
+        100.0 * error,
+        start.elapsed().as_secs_f64()
+    );
     assert!(error <= 0.001, "RMSE {:.4} %, at most 0.1 % wanted", 100.0 * error);
 }
 
