@@ -7,6 +7,8 @@ mod definition;
 mod field;
 mod lab;
 mod report;
+mod table;
+mod trials;
 
 use std::path::{Path, PathBuf};
 

@@ -1,6 +1,7 @@
 //! The claims, one file each.
 
 mod knn_bias;
+mod sphere_area;
 
 use photonlab_measure::Record;
 
@@ -9,16 +10,18 @@ use super::context::Context;
 /// A claim of the paper that can be put to the test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Claim {
+    SphereArea,
     KnnBias,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 1] = [Claim::KnnBias];
+    pub(super) const ALL: [Claim; 2] = [Claim::SphereArea, Claim::KnnBias];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
         match self {
+            Claim::SphereArea => "sphere-area",
             Claim::KnnBias => "knn-bias",
         }
     }
@@ -26,6 +29,7 @@ impl Claim {
     /// The text of its definition file.
     pub(super) fn definition(self) -> &'static str {
         match self {
+            Claim::SphereArea => include_str!("../../../definitions/sphere-area.toml"),
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
         }
     }
@@ -33,6 +37,7 @@ impl Claim {
     /// Runs its experiment.
     pub(super) fn run(self, context: &Context) -> anyhow::Result<Record> {
         match self {
+            Claim::SphereArea => sphere_area::run(context),
             Claim::KnnBias => knn_bias::run(context),
         }
     }
