@@ -9,6 +9,7 @@ mod lab;
 mod report;
 mod table;
 mod trials;
+mod uneven;
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,6 @@
 //! The claims, one file each.
 
+mod even_noise;
 mod knn_bias;
 mod sphere_area;
 
@@ -12,17 +13,19 @@ use super::context::Context;
 pub(super) enum Claim {
     SphereArea,
     KnnBias,
+    EvenNoise,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 2] = [Claim::SphereArea, Claim::KnnBias];
+    pub(super) const ALL: [Claim; 3] = [Claim::SphereArea, Claim::KnnBias, Claim::EvenNoise];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
         match self {
             Claim::SphereArea => "sphere-area",
             Claim::KnnBias => "knn-bias",
+            Claim::EvenNoise => "even-noise",
         }
     }
 
@@ -31,6 +34,7 @@ impl Claim {
         match self {
             Claim::SphereArea => include_str!("../../../definitions/sphere-area.toml"),
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
+            Claim::EvenNoise => include_str!("../../../definitions/even-noise.toml"),
         }
     }
 
@@ -39,6 +43,7 @@ impl Claim {
         match self {
             Claim::SphereArea => sphere_area::run(context),
             Claim::KnnBias => knn_bias::run(context),
+            Claim::EvenNoise => even_noise::run(context),
         }
     }
 }
