@@ -6,6 +6,7 @@ mod date;
 mod definition;
 mod field;
 mod lab;
+mod placed;
 mod report;
 mod table;
 mod trials;

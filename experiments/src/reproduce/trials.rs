@@ -1,7 +1,7 @@
 //! Independent repetitions of one experiment.
 
 use photonlab_gather::Scratch;
-use photonlab_measure::{Interval, Replicates};
+use photonlab_measure::Replicates;
 use photonlab_sampling::Stream;
 use rayon::prelude::*;
 
@@ -44,11 +44,4 @@ impl Trials {
         }
         Ok(whole)
     }
-}
-
-/// The relative noise whose square was measured.
-pub(super) fn noise(square: &Replicates, confidence: f64) -> Option<Interval> {
-    let square = square.interval(confidence)?;
-    let root = |x: f64| x.max(0.0).sqrt();
-    Some(Interval { value: root(square.value), low: root(square.low), high: root(square.high), confidence })
 }

@@ -44,13 +44,6 @@ pub(super) struct Reading {
     pub(super) square: Replicates,
 }
 
-impl Reading {
-    /// The relative noise that the law has.
-    pub(super) fn law_noise(&self) -> f64 {
-        self.law.variance.sqrt() / self.law.mean
-    }
-}
-
 impl Uneven {
     /// Reads independent fields.
     pub(super) fn read(&self, bandwidth: Bandwidth, trials: &Trials) -> anyhow::Result<Reading> {
@@ -79,7 +72,8 @@ impl Uneven {
         }
     }
 
-    fn law(&self, bandwidth: Bandwidth) -> RelativeMoments {
+    /// Mean and variance of the estimate relative to the irradiance at the query.
+    pub(super) fn law(&self, bandwidth: Bandwidth) -> RelativeMoments {
         match bandwidth {
             Bandwidth::Radius(radius) => {
                 let expected = self.expected(radius);

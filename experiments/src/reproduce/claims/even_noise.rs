@@ -1,21 +1,21 @@
-//! `even-noise`: the k nearest over a density ramp and at a step.
+//! `even-noise`: the k nearest over a density ramp and beside a step.
 
-use std::f64::consts::{LN_10, PI};
+use std::f64::consts::PI;
 
 use photonlab_gather::Bandwidth;
-use photonlab_measure::{Axis, Expected, FigureData, Interval, Point, Record, Row, Series, SeriesKind, Verdict};
+use photonlab_measure::{Axis, Expected, FigureData, Interval, Record, Verdict};
 use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
-    table::{Table, row},
-    trials::{Trials, noise},
-    uneven::{Reading, Shape, Uneven},
+    placed::{Placed, law_noise, line, logarithmic_axis, marks, noise_range, on_ramp},
+    table::Table,
+    trials::Trials,
+    uneven::{Shape, Uneven},
 };
 
-const RAMP_LAW: &str =
-    "Gamma law of the photons expected within the k-th distance, Poisson count within a radius, both on exp(a x)";
-const STEP_LAW: &str = "Gamma law of the photons expected within the k-th distance, half-plane law on either side";
+const NEAREST_LAW: &str = "the photons expected within the k-th distance follow a Gamma law (catalogue A7, B3)";
+const RADIUS_LAW: &str = "Poisson count (catalogue A1)";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -23,7 +23,7 @@ struct Parameters {
     seed: u64,
     replicates: u64,
     k: usize,
-    /// Places on the ramp, as photons per square metre.
+    /// Places on the ramp, as photons per square metre, ascending.
     densities: Vec<f64>,
     /// Of the ramp, per metre.
     decades: f64,
@@ -33,7 +33,7 @@ struct Parameters {
     step_density: f64,
     /// The dark side's density over the bright one's.
     step_ratio: f64,
-    /// Places beside the step, metres; the bright side is positive.
+    /// Places beside the step, millimetres, ascending; the bright side is positive.
     step_places: Vec<f64>,
     /// The noise counts as even if the largest over the smallest is below this.
     even: f64,
@@ -43,200 +43,182 @@ struct Parameters {
     noise_precision: f64,
 }
 
-/// One reading with its place along the horizontal axis and what it is called.
-struct Placed {
-    place: f64,
-    name: String,
-    reading: Reading,
+impl Parameters {
+    fn nearest(&self) -> Bandwidth {
+        Bandwidth::Nearest { k: self.k, max_radius: f64::INFINITY }
+    }
+
+    fn fixed(&self) -> Bandwidth {
+        Bandwidth::Radius((self.k as f64 / (PI * self.radius_density)).sqrt())
+    }
+
+    fn beside_step(&self, place: f64) -> Uneven {
+        let (density, ratio) = if place > 0.0 {
+            (self.step_density, self.step_ratio)
+        } else {
+            (self.step_density * self.step_ratio, 1.0 / self.step_ratio)
+        };
+        Uneven { density, shape: Shape::Step { distance: 1e-3 * place.abs(), ratio } }
+    }
+}
+
+struct Readings {
+    by_count: Vec<Placed>,
+    by_radius: Vec<Placed>,
+    at_step: Vec<Placed>,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let nearest = Bandwidth::Nearest { k: p.k, max_radius: f64::INFINITY };
-    let fixed = Bandwidth::Radius((p.k as f64 / (PI * p.radius_density)).sqrt());
-    let ramp = |name: &str, bandwidth, group| -> anyhow::Result<Vec<Placed>> {
-        let place = |(i, &density): (usize, &f64)| {
-            let field = Uneven { density, shape: Shape::Ramp { slope: p.decades * LN_10 } };
-            let name = format!("ramp, {density} photons/m^2, {name}");
-            let trials = Trials { seed: p.seed, group: group + i as u64, replicates: p.replicates };
-            Ok(Placed { place: density, name, reading: field.read(bandwidth, &trials)? })
-        };
-        p.densities.iter().enumerate().map(place).collect()
-    };
-    let by_count = ramp("k nearest", nearest, 0)?;
-    let by_radius = ramp("fixed radius", fixed, 1000)?;
-    let at_step = step(&p, nearest)?;
-
-    let all = || by_count.iter().chain(&by_radius).chain(&at_step);
-    let mut table = Table::new(2 * all().count());
+    let readings = Readings::take(&p)?;
+    let mut table = Table::new(2 * readings.all().count());
     let mut found = Findings { seeds: vec![p.seed], ..Findings::default() };
-    for placed in all() {
-        let source = if at_step.iter().any(|s| s.name == placed.name) { STEP_LAW } else { RAMP_LAW };
-        judge(&mut table, placed, source, &p);
+    for (placed, law) in readings.all() {
+        let (reading, confidence) = (&placed.reading, table.confidence);
+        let mean = Expected::exact(reading.law.mean, law);
+        table.judge(format!("{}: mean over truth", placed.name), mean, placed.mean(confidence), p.precision);
+        let expected = Expected::exact(law_noise(reading.law), law);
+        table.judge(format!("{}: relative noise", placed.name), expected, placed.noise(confidence), p.noise_precision);
         found.rows.push(placed.row());
     }
-    found.figures = figures(&p, &table, &by_count, &by_radius, &at_step);
-    let (comparisons, verdict, reason) = table.conclude(|| verdict(&p, &by_count, &by_radius, &at_step));
+    found.figures = vec![
+        ramp_noise_figure(&p, &table, &readings),
+        ramp_error_figure(&p, &table, &readings),
+        step_figure(&p, &table, &readings),
+    ];
+    let (comparisons, verdict, reason) = table.conclude(|| verdict(&p, &readings));
     found.comparisons = comparisons;
     Ok(context.record(found, verdict, reason))
 }
 
-/// Readings on both sides of a step in density.
-fn step(p: &Parameters, bandwidth: Bandwidth) -> anyhow::Result<Vec<Placed>> {
-    let read = |(i, &place): (usize, &f64)| {
-        let (density, ratio) = if place > 0.0 {
-            (p.step_density, p.step_ratio)
-        } else {
-            (p.step_density * p.step_ratio, 1.0 / p.step_ratio)
+impl Readings {
+    fn take(p: &Parameters) -> anyhow::Result<Self> {
+        let trials = |group| Trials { seed: p.seed, group, replicates: p.replicates };
+        let ramp = |name: &str, bandwidth, group| {
+            Placed::read(&p.densities, bandwidth, trials(group), |density| {
+                (on_ramp(density, p.decades), format!("ramp, {density} photons/m^2, {name}"))
+            })
         };
-        let field = Uneven { density, shape: Shape::Step { distance: place.abs(), ratio } };
-        let trials = Trials { seed: p.seed, group: 2000 + i as u64, replicates: p.replicates };
-        let side = if place > 0.0 { "bright" } else { "dark" };
-        let name = format!("step, {} mm on the {side} side, k nearest", 1000.0 * place.abs());
-        Ok(Placed { place: 1000.0 * place, name, reading: field.read(bandwidth, &trials)? })
-    };
-    p.step_places.iter().enumerate().map(read).collect()
-}
+        let beside = |place: f64| {
+            let side = if place > 0.0 { "bright" } else { "dark" };
+            (p.beside_step(place), format!("step, {} mm on the {side} side, k nearest", place.abs()))
+        };
+        Ok(Self {
+            by_count: ramp("k nearest", p.nearest(), 0)?,
+            by_radius: ramp("fixed radius", p.fixed(), 1000)?,
+            at_step: Placed::read(&p.step_places, p.nearest(), trials(2000), beside)?,
+        })
+    }
 
-fn judge(table: &mut Table, placed: &Placed, source: &str, p: &Parameters) {
-    let (reading, confidence) = (&placed.reading, table.confidence);
-    let mean = Expected::exact(reading.law.mean, source);
-    table.judge(format!("{}: mean over truth", placed.name), mean, reading.mean.interval(confidence), p.precision);
-    let law = Expected::exact(reading.law_noise(), source);
-    let measured = noise(&reading.square, confidence);
-    table.judge(format!("{}: relative noise", placed.name), law, measured, p.noise_precision);
-}
-
-impl Placed {
-    fn row(&self) -> Row {
-        row([
-            ("place", self.name.as_str().into()),
-            ("replicates", self.reading.mean.len().into()),
-            ("mean", self.reading.mean.mean().into()),
-            ("mean_std_error", self.reading.mean.std_error().into()),
-            ("mean_law", self.reading.law.mean.into()),
-            ("relative_variance", self.reading.square.mean().into()),
-            ("relative_variance_std_error", self.reading.square.std_error().into()),
-            ("noise_law", self.reading.law_noise().into()),
-        ])
+    /// Every reading with the law it should follow.
+    fn all(&self) -> impl Iterator<Item = (&Placed, &'static str)> {
+        let nearest = self.by_count.iter().chain(&self.at_step).map(|placed| (placed, NEAREST_LAW));
+        nearest.chain(self.by_radius.iter().map(|placed| (placed, RADIUS_LAW)))
     }
 }
 
-fn verdict(p: &Parameters, by_count: &[Placed], by_radius: &[Placed], at_step: &[Placed]) -> (Verdict, String) {
-    let evenness = |places: &[Placed]| {
-        let squares = places.iter().filter_map(|placed| placed.reading.square.mean());
-        let (low, high) = squares.fold((f64::INFINITY, 0.0_f64), |(l, h), x| (l.min(x), h.max(x)));
-        (low.sqrt(), high.sqrt())
-    };
+fn verdict(p: &Parameters, readings: &Readings) -> (Verdict, String) {
     let worst = |places: &[Placed]| {
         let errors = places.iter().filter_map(|placed| placed.reading.mean.mean()).map(|mean| 100.0 * (mean - 1.0));
         errors.fold(0.0_f64, |worst, error| if error.abs() > worst.abs() { error } else { worst })
     };
-    let (low, high) = evenness(by_count);
-    let (fixed_low, fixed_high) = evenness(by_radius);
+    let percent = |(low, high): (f64, f64)| (100.0 * low, 100.0 * high);
+    let (low, high) = percent(noise_range(&readings.by_count));
+    let (fixed_low, fixed_high) = percent(noise_range(&readings.by_radius));
+    let (step_low, step_high) = percent(noise_range(&readings.at_step));
     let found = format!(
-        "over the ramp the k nearest (k = {}) keep a relative noise of {:.1} to {:.1} %, a fixed radius goes from {:.1} to {:.0} %",
-        p.k,
-        100.0 * low,
-        100.0 * high,
-        100.0 * fixed_low,
-        100.0 * fixed_high
+        "over the ramp the k nearest (k = {}) keep a relative noise of {low:.1} to {high:.1} % where a fixed radius goes from \
+         {fixed_low:.1} to {fixed_high:.0} %",
+        p.k
     );
     if high / low > p.even {
         return (Verdict::DoesNotHold, format!("{found}: uneven by more than a factor of {}", p.even));
     }
     let reason = format!(
-        "{found}; but even noise is not even error: the bias of the k nearest grows to {:+.0} % at the sparse end and to {:+.0} % \
-         beside a step of 1 to {}",
-        worst(by_count),
-        worst(at_step),
+        "{found}. Even noise is not even error: the mean of the k nearest is off by {:+.0} % at the sparse end and by up to {:+.0} % \
+         beside a step of 1 to {}, where the noise is {step_low:.0} to {step_high:.0} %",
+        worst(&readings.by_count),
+        worst(&readings.at_step),
         1.0 / p.step_ratio
     );
     (Verdict::HoldsWithinLimits, reason)
 }
 
-fn measured(label: &str, places: &[Placed], of: impl Fn(&Reading) -> Option<Interval>) -> Series {
-    let points = places.iter().filter_map(|s| Some(Point::measured(s.place, of(&s.reading)?))).collect();
-    Series { label: label.into(), kind: SeriesKind::Measured, points }
+fn ramp_caption(p: &Parameters, table: &Table, what: &str) -> String {
+    format!(
+        "{what} The density changes by {} decade per metre; k = {}, and the fixed radius holds as many at {} photons/m^2. {} fields \
+         per point; {}.",
+        p.decades,
+        p.k,
+        p.radius_density,
+        p.replicates,
+        table.intervals()
+    )
 }
 
-fn law(label: &str, places: &[Placed], of: impl Fn(&Reading) -> f64) -> Series {
-    let points = places.iter().map(|s| Point::new(s.place, of(&s.reading))).collect();
-    Series { label: label.into(), kind: SeriesKind::Predicted, points }
+fn ramp_noise_figure(p: &Parameters, table: &Table, readings: &Readings) -> FigureData {
+    let axis = logarithmic_axis(&p.densities);
+    let field = |density| on_ramp(density, p.decades);
+    let measured = |placed: &Placed| placed.noise(table.confidence);
+    FigureData {
+        id: "noise".into(),
+        title: "Relative noise over a density ramp".into(),
+        caption: ramp_caption(p, table, "Even for the k nearest, not for a fixed radius."),
+        x: Axis::log("photons per square metre at the point"),
+        y: Axis::log("standard deviation over mean"),
+        series: vec![
+            marks("k nearest", &readings.by_count, measured),
+            line("its law", &axis, p.nearest(), field, law_noise),
+            marks("fixed radius", &readings.by_radius, measured),
+            line("its law", &axis, p.fixed(), field, law_noise),
+        ],
+    }
 }
 
-fn figures(
-    p: &Parameters,
-    table: &Table,
-    by_count: &[Placed],
-    by_radius: &[Placed],
-    at_step: &[Placed],
-) -> Vec<FigureData> {
-    let of_noise = |reading: &Reading| noise(&reading.square, table.confidence);
-    let of_mean = |reading: &Reading| reading.mean.interval(table.confidence);
-    let ramp_caption = |what: &str| {
-        format!(
-            "{what} {} decade per metre; k = {}; the fixed radius holds {} photons at {} photons/m^2. {} fields per point; {}.",
-            p.decades,
+fn ramp_error_figure(p: &Parameters, table: &Table, readings: &Readings) -> FigureData {
+    let axis = logarithmic_axis(&p.densities);
+    let field = |density| on_ramp(density, p.decades);
+    let measured = |placed: &Placed| placed.mean(table.confidence);
+    FigureData {
+        id: "error".into(),
+        title: "Mean reading over the same ramp".into(),
+        caption: ramp_caption(p, table, "Where photons are sparse, the k nearest reach into brighter parts."),
+        x: Axis::log("photons per square metre at the point"),
+        y: Axis::linear("mean reading over true irradiance"),
+        series: vec![
+            marks("k nearest", &readings.by_count, measured),
+            line("its law", &axis, p.nearest(), field, |law| law.mean),
+            marks("fixed radius", &readings.by_radius, measured),
+            line("its law", &axis, p.fixed(), field, |law| law.mean),
+        ],
+    }
+}
+
+fn step_figure(p: &Parameters, table: &Table, readings: &Readings) -> FigureData {
+    let reach = p.step_places.iter().fold(0.0_f64, |reach, place| reach.max(place.abs()));
+    let side = |sign: f64| (0..=60).map(move |i| sign * reach * (f64::from(i) / 60.0).max(1e-6));
+    let axis: Vec<f64> = side(-1.0).rev().chain(side(1.0)).collect();
+    let field = |place| p.beside_step(place);
+    let error = |m: Interval| Interval { value: m.value - 1.0, low: m.low - 1.0, high: m.high - 1.0, ..m };
+    FigureData {
+        id: "step".into(),
+        title: "Noise and error of the k nearest beside a step in density".into(),
+        caption: format!(
+            "The noise hardly shows the step, the error does. Bright side {} photons/m^2, dark side {} of it; k = {}. {} fields per \
+             point; {}.",
+            p.step_density,
+            p.step_ratio,
             p.k,
-            p.k,
-            p.radius_density,
             p.replicates,
             table.intervals()
-        )
-    };
-    let density = || Axis::log("density at the point, photons/m^2");
-    vec![
-        FigureData {
-            id: "noise".into(),
-            title: "Relative noise over a density ramp".into(),
-            caption: ramp_caption("Even for the k nearest, not for a fixed radius. Density changes by"),
-            x: density(),
-            y: Axis::log("standard deviation over mean"),
-            series: vec![
-                measured("k nearest", by_count, of_noise),
-                law("its law", by_count, Reading::law_noise),
-                measured("fixed radius", by_radius, of_noise),
-                law("its law", by_radius, Reading::law_noise),
-            ],
-        },
-        FigureData {
-            id: "error".into(),
-            title: "Mean reading over the same ramp".into(),
-            caption: ramp_caption(
-                "Where photons are sparse the k nearest reach into brighter parts. Density changes by",
-            ),
-            x: density(),
-            y: Axis::linear("mean reading over true irradiance"),
-            series: vec![
-                measured("k nearest", by_count, of_mean),
-                law("its law", by_count, |r| r.law.mean),
-                measured("fixed radius", by_radius, of_mean),
-                law("its law", by_radius, |r| r.law.mean),
-            ],
-        },
-        FigureData {
-            id: "step".into(),
-            title: "Noise and error of the k nearest beside a step in density".into(),
-            caption: format!(
-                "Bright side {} photons/m^2, dark side {} of it; k = {}. The noise hardly shows the step, the error does. {} \
-                 fields per point; {}.",
-                p.step_density,
-                p.step_ratio,
-                p.k,
-                p.replicates,
-                table.intervals()
-            ),
-            x: Axis::linear("distance from the step, mm (bright side positive)"),
-            y: Axis::linear("relative to the true irradiance (error) or the mean (noise)"),
-            series: vec![
-                measured("noise", at_step, of_noise),
-                law("its law", at_step, Reading::law_noise),
-                measured("error of the mean", at_step, |r| {
-                    of_mean(r).map(|m| Interval { value: m.value - 1.0, low: m.low - 1.0, high: m.high - 1.0, ..m })
-                }),
-                law("its law", at_step, |r| r.law.mean - 1.0),
-            ],
-        },
-    ]
+        ),
+        x: Axis::linear("distance from the step, mm (bright side positive)"),
+        y: Axis::linear("relative noise, and error of the mean over the truth"),
+        series: vec![
+            marks("noise", &readings.at_step, |placed| placed.noise(table.confidence)),
+            line("its law", &axis, p.nearest(), field, law_noise),
+            marks("error", &readings.at_step, |placed| placed.mean(table.confidence).map(error)),
+            line("its law", &axis, p.nearest(), field, |law| law.mean - 1.0),
+        ],
+    }
 }

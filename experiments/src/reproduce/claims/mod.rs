@@ -1,6 +1,7 @@
 //! The claims, one file each.
 
 mod even_noise;
+mod fixed_noisier;
 mod knn_bias;
 mod sphere_area;
 
@@ -14,11 +15,12 @@ pub(super) enum Claim {
     SphereArea,
     KnnBias,
     EvenNoise,
+    FixedNoisier,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 3] = [Claim::SphereArea, Claim::KnnBias, Claim::EvenNoise];
+    pub(super) const ALL: [Claim; 4] = [Claim::SphereArea, Claim::KnnBias, Claim::EvenNoise, Claim::FixedNoisier];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
@@ -26,6 +28,7 @@ impl Claim {
             Claim::SphereArea => "sphere-area",
             Claim::KnnBias => "knn-bias",
             Claim::EvenNoise => "even-noise",
+            Claim::FixedNoisier => "fixed-noisier",
         }
     }
 
@@ -35,6 +38,7 @@ impl Claim {
             Claim::SphereArea => include_str!("../../../definitions/sphere-area.toml"),
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
             Claim::EvenNoise => include_str!("../../../definitions/even-noise.toml"),
+            Claim::FixedNoisier => include_str!("../../../definitions/fixed-noisier.toml"),
         }
     }
 
@@ -44,6 +48,7 @@ impl Claim {
             Claim::SphereArea => sphere_area::run(context),
             Claim::KnnBias => knn_bias::run(context),
             Claim::EvenNoise => even_noise::run(context),
+            Claim::FixedNoisier => fixed_noisier::run(context),
         }
     }
 }
