@@ -7,8 +7,12 @@ mod date;
 mod definition;
 mod field;
 mod lab;
+mod placed;
 mod report;
 mod strategy;
+mod table;
+mod trials;
+mod uneven;
 
 use std::path::{Path, PathBuf};
 
