@@ -4,11 +4,15 @@ mod claims;
 mod context;
 mod date;
 mod definition;
+mod edges;
+mod faces;
 mod field;
+mod furnace;
 mod lab;
 mod placed;
 mod report;
 mod table;
+mod transmitter;
 mod trials;
 mod uneven;
 

@@ -1,8 +1,10 @@
 //! The claims, one file each.
 
+mod edge_darkening;
 mod even_noise;
 mod fixed_noisier;
 mod knn_bias;
+mod rendering_equation;
 mod sphere_area;
 
 use photonlab_measure::Record;
@@ -16,11 +18,20 @@ pub(super) enum Claim {
     KnnBias,
     EvenNoise,
     FixedNoisier,
+    EdgeDarkening,
+    RenderingEquation,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 4] = [Claim::SphereArea, Claim::KnnBias, Claim::EvenNoise, Claim::FixedNoisier];
+    pub(super) const ALL: [Claim; 6] = [
+        Claim::SphereArea,
+        Claim::KnnBias,
+        Claim::EvenNoise,
+        Claim::FixedNoisier,
+        Claim::EdgeDarkening,
+        Claim::RenderingEquation,
+    ];
 
     /// The claim's name everywhere.
     pub(super) fn id(self) -> &'static str {
@@ -29,6 +40,8 @@ impl Claim {
             Claim::KnnBias => "knn-bias",
             Claim::EvenNoise => "even-noise",
             Claim::FixedNoisier => "fixed-noisier",
+            Claim::EdgeDarkening => "edge-darkening",
+            Claim::RenderingEquation => "rendering-equation",
         }
     }
 
@@ -39,6 +52,8 @@ impl Claim {
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
             Claim::EvenNoise => include_str!("../../../definitions/even-noise.toml"),
             Claim::FixedNoisier => include_str!("../../../definitions/fixed-noisier.toml"),
+            Claim::EdgeDarkening => include_str!("../../../definitions/edge-darkening.toml"),
+            Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
         }
     }
 
@@ -49,6 +64,8 @@ impl Claim {
             Claim::KnnBias => knn_bias::run(context),
             Claim::EvenNoise => even_noise::run(context),
             Claim::FixedNoisier => fixed_noisier::run(context),
+            Claim::EdgeDarkening => edge_darkening::run(context),
+            Claim::RenderingEquation => rendering_equation::run(context),
         }
     }
 }
