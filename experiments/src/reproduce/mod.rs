@@ -3,14 +3,20 @@
 mod claims;
 mod context;
 mod cpu_clock;
+mod cube_field;
+mod cube_law;
 mod date;
 mod definition;
+mod edges;
+mod faces;
 mod field;
+mod furnace;
 mod lab;
 mod placed;
 mod report;
 mod strategy;
 mod table;
+mod transmitter;
 mod trials;
 mod uneven;
 

@@ -1,10 +1,13 @@
 //! The claims, one file each.
 
+mod edge_darkening;
 mod even_noise;
 mod figure_1;
+mod final_gather_edges;
 mod final_gather_rays;
 mod fixed_noisier;
 mod knn_bias;
+mod rendering_equation;
 mod sphere_area;
 mod view_independence;
 
@@ -19,20 +22,26 @@ pub(super) enum Claim {
     KnnBias,
     EvenNoise,
     FixedNoisier,
+    EdgeDarkening,
+    FinalGatherEdges,
     FinalGatherRays,
     ViewIndependence,
+    RenderingEquation,
     Figure1,
 }
 
 impl Claim {
     /// Every claim, in the order of the report.
-    pub(super) const ALL: [Claim; 7] = [
+    pub(super) const ALL: [Claim; 10] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
         Claim::FixedNoisier,
+        Claim::EdgeDarkening,
+        Claim::FinalGatherEdges,
         Claim::FinalGatherRays,
         Claim::ViewIndependence,
+        Claim::RenderingEquation,
         Claim::Figure1,
     ];
 
@@ -43,8 +52,11 @@ impl Claim {
             Claim::KnnBias => "knn-bias",
             Claim::EvenNoise => "even-noise",
             Claim::FixedNoisier => "fixed-noisier",
+            Claim::EdgeDarkening => "edge-darkening",
+            Claim::FinalGatherEdges => "final-gather-edges",
             Claim::FinalGatherRays => "final-gather-rays",
             Claim::ViewIndependence => "view-independence",
+            Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
         }
     }
@@ -56,8 +68,11 @@ impl Claim {
             Claim::KnnBias => include_str!("../../../definitions/knn-bias.toml"),
             Claim::EvenNoise => include_str!("../../../definitions/even-noise.toml"),
             Claim::FixedNoisier => include_str!("../../../definitions/fixed-noisier.toml"),
+            Claim::EdgeDarkening => include_str!("../../../definitions/edge-darkening.toml"),
+            Claim::FinalGatherEdges => include_str!("../../../definitions/final-gather-edges.toml"),
             Claim::FinalGatherRays => include_str!("../../../definitions/final-gather-rays.toml"),
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
+            Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
         }
     }
@@ -69,8 +84,11 @@ impl Claim {
             Claim::KnnBias => knn_bias::run(context),
             Claim::EvenNoise => even_noise::run(context),
             Claim::FixedNoisier => fixed_noisier::run(context),
+            Claim::EdgeDarkening => edge_darkening::run(context),
+            Claim::FinalGatherEdges => final_gather_edges::run(context),
             Claim::FinalGatherRays => final_gather_rays::run(context),
             Claim::ViewIndependence => view_independence::run(context),
+            Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
         }
     }
