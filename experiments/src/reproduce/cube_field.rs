@@ -11,8 +11,6 @@ pub(super) const METERS: [(&str, [f64; 2]); 6] = [
     ("E, edge quarter", [0.998, 0.5]),
     ("F, corner", [0.998, 0.998]),
 ];
-/// The meters beside an edge or a corner.
-pub(super) const EDGES: std::ops::Range<usize> = 3..6;
 /// Knots per axis of the table.
 const KNOTS: usize = 48;
 
