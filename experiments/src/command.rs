@@ -176,7 +176,7 @@ pub(crate) struct Map {
 #[derive(Subcommand)]
 pub(crate) enum MapVerb {
     /// Traces a scene's photons and saves them.
-    Build(MapBuild),
+    Build(Box<MapBuild>),
     /// Describes a saved map.
     Info {
         /// The map.
