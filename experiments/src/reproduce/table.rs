@@ -15,6 +15,10 @@ pub(super) struct Table {
     too_wide: Vec<String>,
 }
 
+/// Below this an expected ratio counts as this much when an interval's width is judged: a leak of zero cannot be known to
+/// a share of itself.
+const LEAST: f64 = 0.01;
+
 impl Table {
     /// A table that will have this many comparisons.
     pub(super) fn new(planned: usize) -> Self {
@@ -22,8 +26,8 @@ impl Table {
         Self { confidence, planned, comparisons: Vec::new(), too_wide: Vec::new() }
     }
 
-    /// Compares a ratio with what is expected. An interval wider than `precision` times the expected value on either side
-    /// says nothing.
+    /// Compares a ratio with what is expected. An interval wider than `precision` times the expected value (or [`LEAST`],
+    /// where next to nothing is expected) on either side says nothing.
     pub(super) fn judge(
         &mut self,
         label: impl Into<String>,
@@ -44,7 +48,7 @@ impl Table {
         precision: f64,
     ) {
         let label = label.into();
-        if measured.is_none_or(|m| m.half_width() > precision * expected.value.abs()) {
+        if measured.is_none_or(|m| m.half_width() > precision * expected.value.abs().max(LEAST)) {
             self.too_wide.push(label.clone());
         }
         self.comparisons.push(Comparison::judge(label, unit, expected, measured));
