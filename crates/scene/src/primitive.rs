@@ -22,7 +22,7 @@ pub enum Surface {
 pub struct Primitive {
     /// Its geometry.
     pub surface: Surface,
-    /// Index into [`Scene::shapes`].
+    /// Index into [`Scene::shapes`](crate::Scene::shapes).
     pub shape: u32,
 }
 
@@ -33,7 +33,7 @@ pub struct SurfacePoint {
     pub position: DVec3,
     /// Unit normal of the shape's front side.
     pub normal: DVec3,
-    /// Index into [`World::primitives`].
+    /// Index into [`World::primitives`](crate::World::primitives).
     pub primitive: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Reading Mitsuba 3 XML into a [`Scene`].
 //!
-//! Two walks: [`load`] turns the file and what it includes into a tree of checked [`element`]s with every `$name`
-//! replaced; [`scene`] asks those elements for what it knows and refuses what is left over, so nothing of a file is
+//! Two walks: `load` turns the file and what it includes into a tree of checked `element`s with every `$name`
+//! replaced; `scene` asks those elements for what it knows and refuses what is left over, so nothing of a file is
 //! ignored in silence. Conventions are Mitsuba's own, as version 3.9 shows them.
 
 mod bsdf;
