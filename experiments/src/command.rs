@@ -95,7 +95,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Threads [default: all cores]. No result depends on it.
-    #[arg(long, value_name = "T", value_parser = number::small_count)]
+    #[arg(long, value_name = "T", value_parser = number::threads)]
     pub(crate) threads: Option<u32>,
     /// Where to compute.
     #[arg(long, value_enum, default_value = "auto")]
@@ -129,7 +129,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceName,
     /// Threads [default: all cores]. No result depends on it.
-    #[arg(long, value_name = "T", value_parser = number::small_count)]
+    #[arg(long, value_name = "T", value_parser = number::threads)]
     pub(crate) threads: Option<u32>,
 }
 

@@ -3,6 +3,9 @@
 //! Every verb has a file. [`run`] is the whole program; the binary only calls it.
 #![forbid(unsafe_code)]
 
+#[macro_use]
+mod say;
+
 mod chosen;
 mod command;
 mod exr_header;
@@ -49,7 +52,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => {
-            eprintln!("{failure}");
+            say!("{failure}");
             failure.status()
         }
     }

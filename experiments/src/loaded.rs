@@ -22,7 +22,7 @@ impl Loaded {
     pub(crate) fn new(arguments: &SceneArguments) -> Result<Self, Failure> {
         let scene = read_scene(&arguments.scene, &arguments.define).map_err(|e| Failure::usage(e.to_string()))?;
         for note in &scene.notes {
-            eprintln!("{}: note: {note}", arguments.scene.display());
+            say!("{}: note: {note}", arguments.scene.display());
         }
         Ok(Self { needs: Needs::of(&scene), identity: scene_identity(&scene), world: World::new(scene) })
     }
@@ -126,7 +126,7 @@ pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted
     if let (true, Some(passes)) = (nothing_given, schedule.ends.passes) {
         let photons: u64 = (0..passes).map(|p| schedule.photons(p)).sum();
         let samples: u64 = (0..passes).map(|p| schedule.samples(p)).sum();
-        eprintln!(
+        say!(
             "note: {passes} passes, {photons} photons and {samples} points per cell in all by default; ask for more with --target-error, --time-limit or counts"
         );
     }

@@ -17,6 +17,9 @@ use crate::{
     system,
 };
 
+/// A reading from a map that rests on fewer photons is not certified: none found is not dark, and few tell no error.
+const FEWEST_PHOTONS: f64 = 30.0;
+
 /// A reading of which more than this share was gathered across an edge is not certified.
 const RESOLVED: f64 = 1e-3;
 
@@ -76,7 +79,7 @@ fn run<const C: usize>(
 /// Says what the readings alone do not: light given up because nothing absorbs it, a target that cannot be reached.
 pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
     if outcome.out_of_reach {
-        eprintln!(
+        say!(
             "warning: stopped after {} passes: more of them cannot reach the wanted error, because light was gathered across \
              edges, or with a radius that is too wide, or none was found; see the readings, and try --method final-gather",
             outcome.passes
@@ -84,7 +87,7 @@ pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
     }
     if let Some(ledger) = outcome.ledger.as_ref().filter(|ledger| ledger.trapped_paths > 0) {
         let share = 100.0 * ledger.total().cut_off.max() / ledger.emitted.max();
-        eprintln!(
+        say!(
             "warning: {} light paths did not leave lossless specular surfaces and are booked under cut_off with all others \
              that were ended early ({share:.3} % of the emitted flux)",
             ledger.trapped_paths
@@ -103,6 +106,7 @@ fn readings<const C: usize>(
     let passes = outcome.passes;
     let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
     let doubt = doubt(scene, settings, needs);
+    let emits: Vec<bool> = (0..C).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
     let mut readings = Vec::new();
     for (cell, result) in cells.iter().zip(&outcome.cells) {
         for channel in 0..C {
@@ -119,6 +123,12 @@ fn readings<const C: usize>(
                 continue;
             }
             let value = result.value[channel].mean().unwrap_or(0.0);
+            if value == 0.0 && !result.dark && emits[channel] {
+                let why =
+                    "no light of this channel was found, though a lamp emits it, which does not show that it is dark";
+                readings.push(Reading::nothing(place, why).with_support(result.photons, outcome.radius)?);
+                continue;
+            }
             let bias_bound = result.bias_bound(channel, options.confidence);
             let error = result.value[channel].std_error();
             let mut reading =
@@ -129,6 +139,12 @@ fn readings<const C: usize>(
                     "{:.2} % of the value was gathered with a ball that reaches over an edge or onto another surface, where \
                      the bias has no bound",
                     100.0 * unresolved
+                ));
+            }
+            if outcome.photons > 0 && !result.dark && result.photons < FEWEST_PHOTONS {
+                reading = reading.not_certified(&format!(
+                    "only {} photons were found near what it looks at: too few to tell what light they stand for",
+                    result.photons
                 ));
             }
             if let Some(doubt) = &doubt {
@@ -198,12 +214,21 @@ fn table(measurement: &Measurement, confidence: f64) -> String {
     for r in &measurement.readings {
         let name = format!("{} [{}, {}] {}", r.sensor, r.cell[0], r.cell[1], r.channel);
         let value = match (r.value, r.half_width()) {
-            (Some(value), Some(half)) => format!("{value:>14.6} ± {half:<12.6} {}", r.unit),
-            (Some(value), None) => format!("{value:>14.6} ± unknown      {}", r.unit),
+            (Some(value), Some(half)) => format!("{} ± {} {}", number(value), number(half), r.unit),
+            (Some(value), None) => format!("{} ± unknown      {}", number(value), r.unit),
             (None, _) => "       nothing found".to_string(),
         };
         let why = r.why.as_ref().map_or(String::new(), |why| format!("  (not certified: {why})"));
         let _ = writeln!(text, "{name:<32} {value}{why}");
     }
     text
+}
+
+/// Six decimals where they say something, else an exponent.
+fn number(value: f64) -> String {
+    if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) {
+        format!("{value:>14.5e}")
+    } else {
+        format!("{value:>14.6}")
+    }
 }

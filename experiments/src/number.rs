@@ -24,6 +24,11 @@ pub(crate) fn small_count(text: &str) -> Result<u32, String> {
     u32::try_from(n).map_err(|_| "must be below 2^32".into())
 }
 
+/// Threads: at least one, and no more than any machine that this program was made for has.
+pub(crate) fn threads(text: &str) -> Result<u32, String> {
+    small_count(text).and_then(|n| if n <= 1024 { Ok(n) } else { Err("must be at most 1024".into()) })
+}
+
 /// A share: `0.01` or `1%`; above 0.
 pub(crate) fn share(text: &str) -> Result<f64, String> {
     let (digits, unit) = match text.strip_suffix('%') {

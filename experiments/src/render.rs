@@ -68,7 +68,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
     if let Some(doubt) = doubt(&world.scene, &settings, needs) {
-        eprintln!("warning: this image is not certified: {doubt}");
+        say!("warning: this image is not certified: {doubt}");
     }
     let unit = cells[0].quantity().in_system(options.unit_system()).unit();
     let film = world.scene.sensors[sensor].film;

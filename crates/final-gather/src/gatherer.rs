@@ -168,7 +168,7 @@ impl<const C: usize> Gatherer<'_, C> {
     ) -> Light<C> {
         let tests =
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
-        let point = gather_point(at, normal);
+        let point = gather_point(self.world, at, normal);
         let estimate = source.map.gather(&point, Bandwidth::Radius(source.radius), AreaModel::Disc, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
@@ -180,6 +180,6 @@ impl<const C: usize> Gatherer<'_, C> {
 }
 
 /// The gather point of a surface point on the side of `normal`.
-pub fn gather_point(at: &SurfacePoint, normal: DVec3) -> GatherPoint {
-    GatherPoint { position: at.position.as_vec3().to_array(), normal: normal.as_vec3().to_array() }
+pub fn gather_point(world: &World, at: &SurfacePoint, normal: DVec3) -> GatherPoint {
+    GatherPoint { position: world.stored(at.position), normal: normal.as_vec3().to_array() }
 }

@@ -46,10 +46,11 @@ impl Bytes {
     /// The contents of a map file without its hash, which is checked.
     pub(crate) fn of(path: &Path) -> Result<Self, MapFileError> {
         let io = |cause| MapFileError::Io { path: path.into(), cause };
-        let mut file = File::open(path).map_err(io)?;
-        if !file.metadata().map_err(io)?.is_file() {
+        // Asked before opening: to open a pipe would wait for its other end.
+        if !std::fs::metadata(path).map_err(io)?.is_file() {
             return Err(MapFileError::Unusable { path: path.into(), what: "it is not a regular file".into() });
         }
+        let mut file = File::open(path).map_err(io)?;
         // A foreign file is refused by its first bytes, before it is read into memory.
         let mut magic = [0; 8];
         let found = file.read(&mut magic).map_err(io)?;

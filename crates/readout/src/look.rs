@@ -153,7 +153,7 @@ impl<const C: usize> Look<'_, C> {
         normal: DVec3,
         scratch: &mut Scratch,
     ) -> Light<C> {
-        let found = map.gather(&gather_point(at, normal), bandwidth, self.settings.area, tests, scratch);
+        let found = map.gather(&gather_point(self.world, at, normal), bandwidth, self.settings.area, tests, scratch);
         let reach = match bandwidth {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,

@@ -2,7 +2,7 @@
 
 use photonlab_final_gather::Light;
 use photonlab_measure::{Replicates, Stopped, student_t_quantile};
-use photonlab_photometry::Channels;
+use photonlab_photometry::{Channels, Colour};
 use photonlab_trace::Ledger;
 
 /// A ball at the corner of a flat surface holds a quarter of its disc, so an estimate made there lacks up to three times
@@ -93,6 +93,8 @@ pub struct Outcome<const C: usize> {
     pub stopped: Stopped,
     /// True if the run ended because no number of further passes would have reached the wanted error.
     pub out_of_reach: bool,
+    /// Flux of all lamps.
+    pub lamp_flux: Colour<C>,
     /// Mean radius averaged over, metres; `None` without a fixed-radius gather.
     pub radius: Option<f64>,
     /// The channels' meaning.

@@ -50,6 +50,7 @@ impl<const C: usize> Run<C> {
             passes: self.passes,
             samples: self.samples,
             stopped,
+            lamp_flux: session.lamps.total_flux(),
             out_of_reach: self.out_of_reach,
             channels: session.needs.channels,
         }

@@ -128,6 +128,15 @@ impl Schedule {
         self.samples.of_pass(pass)
     }
 
+    /// A pass smaller by a factor, whatever was asked for: a pilot.
+    pub fn pilot(&self, by: u64) -> Self {
+        let each = |share: Share, fewest: u64| match share.of_pass(0) {
+            0 => Share::Each(0),
+            count => Share::Each((count / by).max(fewest)),
+        };
+        Self { photons: each(self.photons, self.fewest_photons), samples: each(self.samples, 1), ..*self }
+    }
+
     /// The same with all counts per pass divided: a pilot, or passes short enough for a time limit.
     pub fn divided(&self, by: u64) -> Self {
         let smaller = |share: Share, fewest: u64| match share {

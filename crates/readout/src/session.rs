@@ -164,7 +164,7 @@ impl<const C: usize> Session<'_, C> {
             Method::Path => true,
         };
         // What shrinks is given more passes before it is given up.
-        let patience = if shrinks { 16 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
+        let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
         run.passes >= patience
             && self.error_over.floor_of(&run.cells, self.confidence).is_none_or(|floor| floor > target)
     }
@@ -180,7 +180,7 @@ impl<const C: usize> Session<'_, C> {
         let Some(limit) = schedule.ends.time_limit else {
             return Ok(*schedule);
         };
-        self.pass(&mut Run::new(cells.len()), cells, &schedule.divided(PILOT), source)?;
+        self.pass(&mut Run::new(cells.len()), cells, &schedule.pilot(PILOT), source)?;
         let pass = start.elapsed().as_secs_f64() * PILOT as f64;
         let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64()).max(1e-3);
         let by = (pass * PASSES_IN_TIME / left).ceil().clamp(1.0, 1e6);

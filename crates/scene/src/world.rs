@@ -43,6 +43,12 @@ impl World {
         self.bounds
     }
 
+    /// A position in the single precision of photons and trees, relative to the middle of the scene: a room keeps its
+    /// digits however far from the origin of its coordinates it stands.
+    pub fn stored(&self, position: DVec3) -> [f32; 3] {
+        (position - 0.5 * (self.bounds.0 + self.bounds.1)).as_vec3().to_array()
+    }
+
     /// The primitives of a shape, as indices.
     pub fn primitives_of(&self, shape: usize) -> std::ops::Range<u32> {
         self.first_primitive[shape]..self.first_primitive[shape + 1]
@@ -117,9 +123,13 @@ impl World {
     /// True if a closed ball around a point on a primitive reaches over that primitive's edge or onto another one:
     /// where a density estimate would average over something else than the point's own surface.
     pub fn ball_leaves_surface(&self, point: &SurfacePoint, radius: f64) -> bool {
-        if let Surface::Parallelogram(face) = &self.primitives[point.primitive as usize].surface
-            && face.distance_to_edge(point.position) < radius
-        {
+        let leaves = match &self.primitives[point.primitive as usize].surface {
+            Surface::Parallelogram(face) => face.distance_to_edge(point.position) < radius,
+            // Up to the sphere's own radius the ball cuts a cap of area pi r^2 from it (Archimedes), whose normals stay
+            // within 60 degrees; beyond, a normal test or the far side spoils the area.
+            Surface::Ball(ball) => ball.radius < radius,
+        };
+        if leaves {
             return true;
         }
         self.accelerator.any_near(point.position, radius, |index| {

@@ -21,7 +21,7 @@ const CHUNK: u64 = 2048;
 /// What the photons left behind.
 #[derive(Clone, Debug)]
 pub struct Traced<const C: usize> {
-    /// Where each record was stored, metres.
+    /// Where each record was stored, metres from the scene's middle ([`World::stored`]).
     pub positions: Vec<[f32; 3]>,
     /// The records, in the order of their photons' numbers and along each path.
     pub photons: Vec<Photon<C>>,

@@ -148,7 +148,7 @@ impl<const C: usize> Walk<'_, C> {
 
     fn store(&self, hit: &Hit, job: &Job, out: &mut Traced<C>) {
         if job.keep.has(self.class) {
-            out.positions.push(hit.point.position.as_vec3().to_array());
+            out.positions.push(self.world.stored(hit.point.position));
             out.photons.push(Photon {
                 flux: self.flux.to_f32(),
                 direction: PackedDirection::pack(self.ray.direction.to_array()),

@@ -47,9 +47,9 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     }
     let mut finished = Vec::new();
     for (number, &claim) in claims.iter().enumerate() {
-        eprintln!("[{}/{}] {}", number + 1, claims.len(), claim.id());
+        say!("[{}/{}] {}", number + 1, claims.len(), claim.id());
         let record = run(claim, budget, &out)?;
-        eprintln!("       {}: {}", verdict_word(&record), record.reason);
+        say!("       {}: {}", verdict_word(&record), record.reason);
         finished.push(record);
         // The page is brought up to date after each claim, so that an interrupt leaves a report of what is finished.
         report::write(&finished, &out)?;
