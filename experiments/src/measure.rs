@@ -214,7 +214,7 @@ fn table(measurement: &Measurement, confidence: f64) -> String {
     for r in &measurement.readings {
         let name = format!("{} [{}, {}] {}", r.sensor, r.cell[0], r.cell[1], r.channel);
         let value = match (r.value, r.half_width()) {
-            (Some(value), Some(half)) => format!("{} ± {} {}", number(value), number(half), r.unit),
+            (Some(value), Some(half)) => format!("{} ± {:<12} {}", number(value), number(half).trim_start(), r.unit),
             (Some(value), None) => format!("{} ± unknown      {}", number(value), r.unit),
             (None, _) => "       nothing found".to_string(),
         };
