@@ -22,8 +22,8 @@ impl Table {
         Self { confidence, planned, comparisons: Vec::new(), too_wide: Vec::new() }
     }
 
-    /// Compares a ratio with what is expected. An interval wider than `precision` times the expected value on either side
-    /// says nothing.
+    /// Compares a ratio with what is expected. An interval wider than `precision` times the expected value (times 1 where
+    /// nothing is expected) on either side says nothing.
     pub(super) fn judge(
         &mut self,
         label: impl Into<String>,
@@ -44,7 +44,8 @@ impl Table {
         precision: f64,
     ) {
         let label = label.into();
-        if measured.is_none_or(|m| m.half_width() > precision * expected.value.abs()) {
+        let scale = if expected.value == 0.0 { 1.0 } else { expected.value.abs() };
+        if measured.is_none_or(|m| m.half_width() > precision * scale) {
             self.too_wide.push(label.clone());
         }
         self.comparisons.push(Comparison::judge(label, unit, expected, measured));

@@ -142,7 +142,7 @@ fn verdict(p: &Parameters, confidence: f64, plane: &Pair, ramp: &Pair) -> (Verdi
     let crossover = (p.k as f64 - 2.0) / (PI * p.radius().powi(2));
     let reason = format!(
         "in uniform light with equal mean count the fixed radius is the quieter one ({:.2} against {:.2} % at {} photons); with one \
-         radius on a ramp it is noisier below {sparse} and quieter above {dense} photons/m^2: it is noisier where its disc holds \
+         radius on a ramp it is noisier up to {sparse} and quieter from {dense} photons/m^2: it is noisier where its disc holds \
          fewer than k - 2 photons, here {crossover:.0} per m^2",
         percent(plane.by_radius.first()),
         percent(plane.by_count.first()),
@@ -173,9 +173,9 @@ fn plane_figure(p: &Parameters, table: &Table, plane: &Pair) -> FigureData {
         y: Axis::linear("relative noise times sqrt(n)"),
         series: vec![
             marks("k nearest", &plane.by_count, measured),
-            law("sqrt(k / (k - 2))", |k| (k / (k - 2.0)).sqrt()),
+            law("its law, sqrt(k / (k - 2))", |k| (k / (k - 2.0)).sqrt()),
             marks("fixed radius", &plane.by_radius, measured),
-            law("1", |_| 1.0),
+            law("its law, 1", |_| 1.0),
         ],
     }
 }

@@ -29,11 +29,8 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let mut found = Findings { seeds: vec![p.furnace.seed, p.sheet.seed], ..Findings::default() };
     let furnaces = furnace::read(&p.furnace, table.confidence)?;
     for reading in &furnaces {
-        let expected = Expected::exact(
-            reading.truth(),
-            "a closed cavity that emits and reflects everywhere alike: \
-                                                         L_e / (1 - rho) (catalogue D2)",
-        );
+        let expected =
+            Expected::exact(reading.truth(), "L_e / (1 - rho) in a closed cavity of uniform walls (catalogue D2)");
         table.judge(reading.name(), expected, reading.measured, p.precision);
         found.rows.push(reading.row());
     }
