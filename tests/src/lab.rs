@@ -41,7 +41,7 @@ impl Lab {
         self.trace_within(photons, seed, pass, keep, Limits::default())
     }
 
-    /// Follows the photons of one pass up to limits.
+    /// Follows the photons of one pass up to limits; positions are the scene's own, not the map's.
     pub fn trace_within<const C: usize>(
         &self,
         photons: u64,
@@ -52,7 +52,13 @@ impl Lab {
     ) -> Traced<C> {
         let lamps = Lamps::new(&self.world);
         let plan = EmissionPlan::new(&lamps, photons).expect("photons for every lamp");
-        trace(&self.world, &lamps, &plan, &Job { seed, pass, limits, keep }).expect("a scene that absorbs")
+        let job = Job { seed, pass, limits, keep };
+        let mut traced = trace(&self.world, &lamps, &plan, &job).expect("a scene that absorbs");
+        let middle = self.world.middle().to_array();
+        for position in &mut traced.positions {
+            *position = std::array::from_fn(|axis| (f64::from(position[axis]) + middle[axis]) as f32);
+        }
+        traced
     }
 
     /// Reads every meter.

@@ -46,7 +46,12 @@ impl World {
     /// A position in the single precision of photons and trees, relative to the middle of the scene: a room keeps its
     /// digits however far from the origin of its coordinates it stands.
     pub fn stored(&self, position: DVec3) -> [f32; 3] {
-        (position - 0.5 * (self.bounds.0 + self.bounds.1)).as_vec3().to_array()
+        (position - self.middle()).as_vec3().to_array()
+    }
+
+    /// The middle of the box around all surfaces, metres.
+    pub fn middle(&self) -> DVec3 {
+        0.5 * (self.bounds.0 + self.bounds.1)
     }
 
     /// The primitives of a shape, as indices.
