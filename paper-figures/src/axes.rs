@@ -15,6 +15,9 @@ fn points(figure: &FigureData) -> impl Iterator<Item = &Point> {
 /// Refuses a figure that cannot be drawn.
 pub(crate) fn check(figure: &FigureData) -> Result<(), FigureError> {
     let id = || figure.id.clone();
+    if !figure.y.names.is_empty() {
+        return Err(FigureError::NamesUpright { figure: id() });
+    }
     for series in &figure.series {
         for p in &series.points {
             let all = [Some(p.x), Some(p.y), p.low, p.high];
@@ -23,6 +26,10 @@ pub(crate) fn check(figure: &FigureData) -> Result<(), FigureError> {
             }
             if figure.x.log && p.x <= 0.0 {
                 return Err(FigureError::NotOnLogAxis { figure: id(), series: series.label.clone(), x: p.x });
+            }
+            let names = figure.x.names.len();
+            if names > 0 && !(0.5..=names as f64 + 0.5).contains(&p.x) {
+                return Err(FigureError::NoSuchName { figure: id(), series: series.label.clone(), x: p.x, names });
             }
         }
     }
@@ -34,6 +41,9 @@ pub(crate) fn check(figure: &FigureData) -> Result<(), FigureError> {
 
 /// The x axis over all points.
 pub(crate) fn horizontal(figure: &FigureData) -> Scale {
+    if !figure.x.names.is_empty() {
+        return Scale::named(&figure.x.names);
+    }
     let values: Vec<f64> = points(figure).map(|p| p.x).collect();
     if figure.x.log { Scale::logarithmic(&values, 8) } else { Scale::linear(&values, 7) }
 }

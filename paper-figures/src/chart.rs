@@ -74,7 +74,7 @@ impl<'a> Chart<'a> {
         let widest = y.ticks.iter().map(|tick| wide(&tick.label)).fold(0.0, f64::max);
         let last = x.ticks.last().map_or(0.0, |tick| 0.5 * wide(&tick.label) * x.position(tick.at).powi(8));
         let (left, right) = (MARGIN + widest + GAP, WIDTH - MARGIN - last);
-        let plot = Plot { x, y, left, right, top };
+        let plot = Plot { named: !figure.x.names.is_empty(), x, y, left, right, top };
         Ok(Chart { figure, styles, title, legend, plot, x_label, y_label, height })
     }
 

@@ -31,6 +31,24 @@ pub enum FigureError {
         /// The x.
         x: f64,
     },
+    /// A point's place belongs to none of the x axis' names.
+    #[error("figure {figure}: series {series:?} has a point at x = {x}, but the axis has {names} names")]
+    NoSuchName {
+        /// The figure's id.
+        figure: String,
+        /// The series' label.
+        series: String,
+        /// The x.
+        x: f64,
+        /// How many names the axis has.
+        names: usize,
+    },
+    /// Names stand along the horizontal axis only.
+    #[error("figure {figure}: the vertical axis has names; only the horizontal one can")]
+    NamesUpright {
+        /// The figure's id.
+        figure: String,
+    },
     /// No value or interval end is above zero on a logarithmic y axis.
     #[error("figure {figure}: nothing above zero on a logarithmic y axis")]
     NothingAboveZero {

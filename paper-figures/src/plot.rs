@@ -14,6 +14,8 @@ pub(crate) const LABEL: f64 = 15.0;
 
 /// Two axes and their place on the sheet, in pixels.
 pub(crate) struct Plot {
+    /// The x axis has names: points stand side by side and are not joined.
+    pub(crate) named: bool,
     pub(crate) x: Scale,
     pub(crate) y: Scale,
     pub(crate) left: f64,
@@ -82,6 +84,12 @@ impl Plot {
 
     /// A line, with a band if every point has an interval.
     pub(crate) fn draw_line(&self, canvas: &Canvas<'_>, series: &Series, style: Style) {
+        if self.named && series.points.len() > 1 {
+            for &point in &series.points {
+                self.draw_line(canvas, &Series { points: vec![point], ..series.clone() }, style);
+            }
+            return;
+        }
         let end = |y: fn(&Point) -> Option<f64>| -> Option<Vec<f64>> { series.points.iter().map(y).collect() };
         if let (Some(highs), Some(lows)) = (end(|p| p.high), end(|p| p.low)) {
             let (above, below) = (self.path(series, &highs), self.path(series, &lows));

@@ -30,6 +30,12 @@ impl Scale {
         Scale { log: false, low, high, ticks: ticks::linear(low, high, wanted), minor: Vec::new() }
     }
 
+    /// Names at 1, 2, 3 and on, with half a step on either side.
+    pub(crate) fn named(names: &[String]) -> Self {
+        let ticks = names.iter().enumerate().map(|(i, name)| Tick { at: i as f64 + 1.0, label: name.clone() });
+        Scale { log: false, low: 0.5, high: names.len() as f64 + 0.5, ticks: ticks.collect(), minor: Vec::new() }
+    }
+
     /// A logarithmic axis over all `values` (at least one, all above zero), a little wider.
     pub(crate) fn logarithmic(values: &[f64], wanted: usize) -> Self {
         let (low, high) = ends(values);

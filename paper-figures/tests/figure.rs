@@ -54,6 +54,21 @@ fn equal_factors_are_equal_lengths_on_logarithmic_axes() {
 }
 
 #[test]
+fn named_places_stand_apart_and_no_line_joins_them() {
+    let points = || vec![Point::new(1.0, 1.0), Point::new(2.0, 2.0), Point::new(3.0, 1.0)];
+    let lines = |x: Axis| {
+        let svg = draw(&figure(x, Axis::linear("y"), vec![("law", SeriesKind::Predicted, points())])).unwrap();
+        let document = Document::parse(&svg).unwrap();
+        let labels = texts(&document).into_iter().filter(|t| ["floor", "wall", "roof"].contains(&t.as_str())).count();
+        (labels, svg.matches("stroke-width=\"2").count())
+    };
+    let joined = lines(Axis::linear("place"));
+    let apart = lines(Axis::named("place", ["floor", "wall", "roof"]));
+    assert_eq!((joined.0, apart.0), (0, 3));
+    assert_eq!(apart.1, joined.1 + 2, "three bars in place of one line");
+}
+
+#[test]
 fn a_bar_that_crosses_zero_is_cut_and_said() {
     let cut = vec![with_interval(1.0, 0.5, -0.2, 1.2), with_interval(2.0, 0.4, 0.3, 0.5), Point::new(3.0, -0.1)];
     let log = figure(Axis::linear("x"), Axis::log("y"), vec![("s", SeriesKind::Measured, cut.clone())]);
@@ -74,6 +89,9 @@ fn what_cannot_be_drawn_is_named() {
     assert!(matches!(one(lin(), lin(), vec![]), FigureError::Empty { .. }));
     assert!(matches!(one(lin(), lin(), vec![Point::new(f64::NAN, 1.0)]), FigureError::NotFinite { .. }));
     assert!(matches!(one(log(), lin(), vec![Point::new(0.0, 1.0)]), FigureError::NotOnLogAxis { .. }));
+    let named = || Axis::named("a", ["one", "two"]);
+    assert!(matches!(one(named(), lin(), vec![Point::new(2.6, 1.0)]), FigureError::NoSuchName { .. }));
+    assert!(matches!(one(lin(), named(), vec![Point::new(1.0, 1.0)]), FigureError::NamesUpright { .. }));
     assert!(matches!(one(lin(), log(), vec![Point::new(1.0, 0.0)]), FigureError::NothingAboveZero { .. }));
 }
 

@@ -30,17 +30,25 @@ pub struct Axis {
     pub label: String,
     /// True for a logarithmic scale.
     pub log: bool,
+    /// Where the axis has names in place of numbers: the n-th stands at n, counted from 1, and no line joins them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
 }
 
 impl Axis {
     /// A linear axis.
     pub fn linear(label: impl Into<String>) -> Self {
-        Axis { label: label.into(), log: false }
+        Axis { label: label.into(), log: false, names: Vec::new() }
     }
 
     /// A logarithmic axis.
     pub fn log(label: impl Into<String>) -> Self {
-        Axis { label: label.into(), log: true }
+        Axis { label: label.into(), log: true, names: Vec::new() }
+    }
+
+    /// Names side by side: a point belongs to the n-th if its place lies within half a step of n.
+    pub fn named<'a>(label: impl Into<String>, names: impl IntoIterator<Item = &'a str>) -> Self {
+        Axis { label: label.into(), log: false, names: names.into_iter().map(String::from).collect() }
     }
 }
 

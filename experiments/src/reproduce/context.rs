@@ -3,6 +3,7 @@
 use std::{path::Path, path::PathBuf, process::Command, time::Instant};
 
 use photonlab_measure::{Budget, Comparison, FigureData, ImageEntry, Record, Row, Run, Verdict};
+use photonlab_paper_figures::interval_text;
 use serde::de::DeserializeOwned;
 
 use super::{claims::Claim, date::today, definition::Definition};
@@ -70,13 +71,33 @@ impl Context {
                 seconds: self.start.elapsed().as_secs_f64(),
             },
             seeds: found.seeds,
-            comparisons: found.comparisons,
             rows: found.rows,
             figures: found.figures,
             images: found.images,
+            reason: with_what_failed(reason.into(), verdict, &found.comparisons),
+            comparisons: found.comparisons,
             verdict,
-            reason: reason.into(),
         }
+    }
+}
+
+/// A verdict against a claim names the comparisons that it rests on.
+fn with_what_failed(reason: String, verdict: Verdict, comparisons: &[Comparison]) -> String {
+    let failed = comparisons.iter().filter(|c| c.holds == Some(false));
+    let words: Vec<String> = failed
+        .filter_map(|c| {
+            let measured = c.measured?;
+            Some(format!(
+                "{} is {} where {} was expected",
+                c.label,
+                interval_text(measured.value, measured.low, measured.high),
+                interval_text(c.expected.value, c.expected.low, c.expected.high)
+            ))
+        })
+        .collect();
+    match (verdict, words.is_empty()) {
+        (Verdict::DoesNotHold, false) => format!("{reason}; {}", words.join("; ")),
+        _ => reason,
     }
 }
 

@@ -13,6 +13,7 @@ mod field;
 mod furnace;
 mod lab;
 mod placed;
+mod ray_curves;
 mod report;
 mod strategy;
 mod table;

@@ -60,7 +60,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let readers = readers(&p);
     let confidence = 1.0 - sidak_level(1.0 - FAMILY, readers.len() * METERS.len() + 1);
     let (mut series, mut wide, mut seconds) = (Vec::new(), false, Vec::new());
-    for reader in &readers {
+    for (nth, reader) in readers.iter().enumerate() {
         let (values, spent) = read(&lab, &p, reader, &truth, &mut found)?;
         let mut points = Vec::new();
         for (i, (name, _)) in METERS.iter().enumerate() {
@@ -68,14 +68,14 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             wide |= measured.is_none_or(|m| m.half_width() > p.precision);
             let expected = Expected::within(reader.law[i], reader.tolerance * reader.law[i], reader.source);
             found.comparisons.push(Comparison::judge(format!("{}, {name}", reader.title), "1", expected, measured));
-            points.extend(measured.map(|m| Point::measured(i as f64 + 1.0, m)));
+            points.extend(measured.map(|m| Point::measured(place(i, nth), m)));
         }
         if reader.title == "final gather" {
             let expected = Expected::within(1.0, MEAN_TOLERANCE, "energy balance: mean luminance 2000/3 cd/m^2");
             let label = "final gather, mean over the faces";
             found.comparisons.push(Comparison::judge(label, "1", expected, values[METERS.len()].interval(confidence)));
         }
-        let law = reader.law.iter().enumerate().map(|(i, &y)| Point::new(i as f64 + 1.0, y)).collect();
+        let law = reader.law.iter().enumerate().map(|(i, &y)| Point::new(place(i, nth), y)).collect();
         series.push(Series { label: format!("{}, measured", reader.title), kind: SeriesKind::Measured, points });
         series.push(Series { label: format!("{}, predicted", reader.title), kind: SeriesKind::Predicted, points: law });
         seconds.push(format!("{} {spent:.2}", reader.title));
@@ -84,8 +84,8 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         id: "six-meters".into(),
         title: "CUBE's six meters by three strategies, relative to the radiosity solution".into(),
         caption: format!(
-            "1 face centre, 2 and 3 on the face, 4 edge middle, 5 edge quarter, 6 corner (1 cm from the edges). {} seeds of {} \
-             photons; direct view with radius {} m and k = {}; bars: {:.3} % intervals. CPU seconds per seed: {}. {CPU_SECONDS}.",
+            "B and C lie on the face, D, E and F 1 cm from the edges. {} seeds of {} photons; direct view with radius {} m and k = {}; \
+             bars: {:.3} % intervals. CPU seconds per seed: {}. {CPU_SECONDS}.",
             p.replicates,
             p.photons,
             p.radius,
@@ -93,11 +93,16 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             100.0 * confidence,
             seconds.join(", ")
         ),
-        x: Axis::linear("meter"),
+        x: Axis::named("meter", METERS.map(|(name, _)| name)),
         y: Axis::linear("luminance over the truth"),
         series,
     });
     conclude(context, found, wide)
+}
+
+/// Along the axis: the meter's name, the readers side by side around it.
+fn place(meter: usize, reader: usize) -> f64 {
+    meter as f64 + 1.0 + 0.25 * (reader as f64 - 1.0)
 }
 
 fn conclude(context: &Context, found: Findings, wide: bool) -> anyhow::Result<Record> {

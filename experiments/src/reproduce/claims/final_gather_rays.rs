@@ -1,24 +1,25 @@
 //! `final-gather-rays`: rays of final gather against paths of path tracing at equal error.
 
-use photonlab_measure::{
-    Axis, Comparison, Expected, FigureData, Interval, LogLogFit, Point, Record, Replicates, Row, Series, SeriesKind,
-    Verdict, fit_log_log,
-};
+use photonlab_measure::{Comparison, Expected, Interval, Record, Verdict};
 use photonlab_readout::{Cell, Wanted};
 use photonlab_reference::cube::Cube;
+use photonlab_scene::Film;
 use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
-    cpu_clock::{CPU_SECONDS, CpuClock},
+    cube_field::METERS,
     lab::Lab,
+    ray_curves::{Bench, CONFIDENCE, Curve, Measured, chart, path_law, paths_per_ray, time_ratio},
     strategy::Strategy,
 };
 
-const SCENE: &str = include_str!("../../../scenes/cube.xml");
-/// The meters of the scene in half-edges from the face's centre.
-const METERS: [[f64; 2]; 6] = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5], [0.998, 0.0], [0.998, 0.5], [0.998, 0.998]];
-const CONFIDENCE: f64 = 0.99;
+const CUBE: &str = include_str!("../../../scenes/cube.xml");
+const CORNELL_BOX: &str = include_str!("../../../scenes/cornell-box.xml");
+/// Pixels across and down the picture of the Cornell box.
+const SIZE: u32 = 12;
+/// Pixels brighter than this many times the picture's mean show the lamp.
+const LAMP: f64 = 8.0;
 /// A gather ray is expected to be worth at most this many paths.
 const MOST: f64 = 10.0;
 
@@ -29,158 +30,102 @@ struct Parameters {
     replicates: u64,
     points: Vec<u64>,
     photons: Vec<u64>,
-    /// Largest relative half-width of the deciding ratio.
+    pixel_points: Vec<u64>,
+    pixel_photons: Vec<u64>,
+    /// Paths per pixel of the control.
+    control_points: u64,
+    /// Largest relative half-width of the deciding ratios.
     precision: f64,
 }
 
-/// Error and time of one setting over its seeds.
-struct Measured {
-    rays: f64,
-    /// Mean over the seeds of the mean square relative error of the six meters.
-    square: Replicates,
-    seconds: Replicates,
-}
-
-impl Measured {
-    /// Root of the mean square, with the interval of the mean square carried through the root.
-    fn rms(&self) -> Option<Interval> {
-        let square = self.square.interval(CONFIDENCE)?;
-        let root = |x: f64| x.max(0.0).sqrt();
-        Some(Interval { value: root(square.value), low: root(square.low), high: root(square.high), ..square })
-    }
+/// What a scene showed.
+struct Shown {
+    paths_per_ray: Option<Interval>,
+    time_ratio: Option<f64>,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let lab = Lab::new("cube.xml", SCENE, &[])?;
-    let solution = Cube::BENCHMARK.solve();
-    let truth = METERS.map(|[u, v]| solution.luminance(u, v));
-    let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
-    let mut curves =
-        vec![(Strategy::PATH.title.to_string(), curve(&lab, &p, Strategy::PATH, None, &truth, &mut found)?)];
-    for &photons in &p.photons {
-        let title = format!("final gather, {photons} photons");
-        curves.push((title, curve(&lab, &p, Strategy::FINAL_GATHER, Some(photons), &truth, &mut found)?));
-    }
-    let law = path_law(&curves[0].1)?;
-    let most_photons = &curves[curves.len() - 1].1;
-    let deciding = ratio(&law, &most_photons[0]);
-    let expected =
-        Expected { value: 3.0, low: 1.0, high: MOST, source: "one path is about three bounces of noise".into() };
-    let label = format!("paths that replace one of {} gather rays per meter, most photons", p.points[0]);
-    found.comparisons.push(Comparison::judge(label, "1", expected, deciding));
-    let slope = law.slope_interval(CONFIDENCE);
-    let expected = Expected::within(-0.5, 0.05, "independent paths; the lattice may do slightly better");
-    found.comparisons.push(Comparison::judge("slope of path tracing's RMS error in paths", "1", expected, Some(slope)));
-    found.figures.push(chart("error-against-rays", "rays or paths per meter", &curves, &p, |m| m.rays));
-    found.figures.push(chart("error-against-time", "CPU seconds for six meters", &curves, &p, |m| {
-        m.seconds.mean().unwrap_or(0.0)
-    }));
-    let sooner = time_ratio(&curves);
-    let (verdict, reason) = conclude(deciding, sooner, p.precision);
+    let control_seed = p.seed + 1_000_000;
+    let seeds = p.seed..p.seed + p.replicates;
+    let mut found = Findings { seeds: seeds.clone().chain([control_seed]).collect(), ..Findings::default() };
+    let curves = cube()?.curves(&p.points, &p.photons, seeds.clone(), &mut found)?;
+    let cube = judge("CUBE", "per meter", &curves, &p, &mut found)?;
+    let curves =
+        cornell_box(control_seed, p.control_points)?.curves(&p.pixel_points, &p.pixel_photons, seeds, &mut found)?;
+    let cornell_box = judge("the Cornell box", "per pixel", &curves, &p, &mut found)?;
+    let (verdict, reason) = conclude(&cube, &cornell_box, p.precision);
     Ok(context.record(found, verdict, reason))
 }
 
-fn conclude(ratio: Option<Interval>, sooner: Option<f64>, precision: f64) -> (Verdict, String) {
-    let Some(ratio) = ratio.filter(|r| r.half_width() <= precision * r.value) else {
+/// The six meters against the radiosity solution, each relative to its own truth.
+fn cube() -> anyhow::Result<Bench<1>> {
+    let lab = Lab::new("cube.xml", CUBE, &[])?;
+    let solution = Cube::BENCHMARK.solve();
+    let truth = METERS.map(|(_, [u, v])| solution.luminance(u, v));
+    let cells = Cell::of_meters(&lab.world.scene);
+    Ok(Bench { id: "cube", lab, cells, truth: truth.map(|l| Some(([l], l))).to_vec() })
+}
+
+/// A small picture against a path-traced control, relative to the control's mean, the lamp left out.
+fn cornell_box(seed: u64, points: u64) -> anyhow::Result<Bench<3>> {
+    let mut lab = Lab::new("cornell-box.xml", CORNELL_BOX, &[])?;
+    lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
+    let cells = Cell::of_sensor(&lab.world.scene, 0);
+    let wanted = Wanted { samples: Some(points), ..Wanted::default() };
+    let control = lab.read::<3>(&cells, Strategy::PATH.settings(seed), &wanted, CONFIDENCE)?;
+    let pixels: Vec<[f64; 3]> =
+        control.cells.iter().map(|cell| std::array::from_fn(|c| cell.value[c].mean().unwrap_or(0.0))).collect();
+    let mean_of = |pixels: &[[f64; 3]]| pixels.iter().flatten().sum::<f64>() / (3 * pixels.len()) as f64;
+    let all = mean_of(&pixels);
+    let shows_lamp = |pixel: &[f64; 3]| pixel.iter().any(|&l| l > LAMP * all);
+    let rest: Vec<[f64; 3]> = pixels.iter().copied().filter(|pixel| !shows_lamp(pixel)).collect();
+    let scale = mean_of(&rest);
+    let truth = pixels.iter().map(|pixel| (!shows_lamp(pixel)).then_some((*pixel, scale))).collect();
+    Ok(Bench { id: "cornell-box", lab, cells, truth })
+}
+
+/// Comparisons and figures of one scene.
+fn judge(scene: &str, each: &str, curves: &[Curve], p: &Parameters, found: &mut Findings) -> anyhow::Result<Shown> {
+    let law = path_law(curves)?;
+    let fewest = &curves[curves.len() - 1].points[0];
+    let ratio = paths_per_ray(&law, fewest);
+    let expected =
+        Expected { value: 3.0, low: 1.0, high: MOST, source: "one path is about three bounces of noise".into() };
+    let label = format!("{scene}: paths that replace one of {} gather rays {each}, most photons", fewest.rays);
+    found.comparisons.push(Comparison::judge(label, "1", expected, ratio));
+    let slope = law.slope_interval(CONFIDENCE);
+    let expected = Expected::within(-0.5, 0.05, "independent paths; the lattice may do slightly better");
+    let label = format!("{scene}: slope of path tracing's RMS error in paths");
+    found.comparisons.push(Comparison::judge(label, "1", expected, Some(slope)));
+
+    let title = format!("{scene}: error of final gather and of path tracing");
+    let id =
+        |of: &str| format!("{}-error-against-{of}", scene.trim_start_matches("the ").replace(' ', "-").to_lowercase());
+    let rays = format!("rays or paths {each}");
+    found.figures.push(chart(&id("rays"), &title, &rays, p.replicates, curves, |m| m.rays));
+    found.figures.push(chart(&id("time"), &title, "CPU seconds", p.replicates, curves, Measured::seconds));
+    Ok(Shown { paths_per_ray: ratio, time_ratio: time_ratio(curves) })
+}
+
+fn conclude(cube: &Shown, cornell_box: &Shown, precision: f64) -> (Verdict, String) {
+    let narrow = |shown: &Shown| shown.paths_per_ray.filter(|r| r.half_width() <= precision * r.value);
+    let (Some(a), Some(b)) = (narrow(cube), narrow(cornell_box)) else {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
     };
-    let time = sooner.map_or(String::new(), |t| {
-        format!(
-            "; in CPU time, photons included, final gather takes {t:.2} times as long as path tracing at equal error"
-        )
-    });
+    let time = |shown: &Shown| shown.time_ratio.map_or("unknown".into(), |t| format!("{t:.2}"));
     let reason = format!(
-        "at few rays one gather ray in CUBE replaces {:.1} paths ({:.1} to {:.1}), and the gain ends at the photons' own noise{time}",
-        ratio.value, ratio.low, ratio.high
+        "at few rays one gather ray replaces {:.1} paths ({:.1} to {:.1}) in CUBE and {:.1} ({:.1} to {:.1}) in the Cornell box, and \
+         the gain ends at the photons' own noise; in CPU time at equal error, photons included, final gather takes {} and {} times as \
+         long as path tracing",
+        a.value,
+        a.low,
+        a.high,
+        b.value,
+        b.low,
+        b.high,
+        time(cube),
+        time(cornell_box)
     );
-    (if ratio.low > 1.0 { Verdict::HoldsWithinLimits } else { Verdict::DoesNotHold }, reason)
-}
-
-fn curve(
-    lab: &Lab,
-    p: &Parameters,
-    strategy: Strategy,
-    photons: Option<u64>,
-    truth: &[f64; 6],
-    found: &mut Findings,
-) -> anyhow::Result<Vec<Measured>> {
-    let cells = Cell::of_meters(&lab.world.scene);
-    let mut one = |points: u64| -> anyhow::Result<Measured> {
-        let mut measured = Measured { rays: points as f64, square: Replicates::new(), seconds: Replicates::new() };
-        for seed in p.seed..p.seed + p.replicates {
-            let clock = CpuClock::start();
-            let wanted = Wanted { photons, samples: Some(points), ..Wanted::default() };
-            let outcome = lab.read::<1>(&cells, strategy.settings(seed), &wanted, CONFIDENCE)?;
-            let spent = clock.seconds();
-            let relative = |(cell, truth): (&photonlab_readout::CellResult<1>, &f64)| {
-                (cell.value[0].mean().unwrap_or(0.0) / truth - 1.0).powi(2)
-            };
-            let square = outcome.cells.iter().zip(truth).map(relative).sum::<f64>() / truth.len() as f64;
-            measured.square.push(square);
-            measured.seconds.push(spent);
-            found.rows.push(row(&strategy, photons, points, seed, square.sqrt(), spent));
-        }
-        Ok(measured)
-    };
-    p.points.iter().map(|&points| one(points)).collect()
-}
-
-/// RMS error against paths.
-fn path_law(paths: &[Measured]) -> anyhow::Result<LogLogFit> {
-    let x: Vec<f64> = paths.iter().map(|m| m.rays).collect();
-    let y: Vec<f64> = paths.iter().map(|m| m.square.mean().unwrap_or(0.0).sqrt()).collect();
-    Ok(fit_log_log(&x, &y)?)
-}
-
-/// Paths at the error of a final-gather setting, over its rays; the interval is that of the setting's error.
-fn ratio(law: &LogLogFit, gather: &Measured) -> Option<Interval> {
-    let rms = gather.rms()?;
-    let paths = |error: f64| law.solve(error, CONFIDENCE).map(|paths| paths.value / gather.rays);
-    Some(Interval { value: paths(rms.value)?, low: paths(rms.high)?, high: paths(rms.low)?, confidence: CONFIDENCE })
-}
-
-/// Time of final gather over that of path tracing at the error of final gather's last point with most photons.
-fn time_ratio(curves: &[(String, Vec<Measured>)]) -> Option<f64> {
-    let x: Vec<f64> = curves[0].1.iter().map(|m| m.seconds.mean().unwrap_or(0.0)).collect();
-    let y: Vec<f64> = curves[0].1.iter().map(|m| m.square.mean().unwrap_or(0.0).sqrt()).collect();
-    let law = fit_log_log(&x, &y).ok()?;
-    let last = curves.last()?.1.last()?;
-    let path_seconds = law.solve(last.rms()?.value, CONFIDENCE)?.value;
-    Some(last.seconds.mean()? / path_seconds)
-}
-
-fn chart(
-    id: &str,
-    x: &str,
-    curves: &[(String, Vec<Measured>)],
-    p: &Parameters,
-    place: impl Fn(&Measured) -> f64,
-) -> FigureData {
-    let series = curves.iter().map(|(title, curve)| {
-        let points = curve.iter().filter_map(|m| Some(Point::measured(place(m), m.rms()?.scaled(100.0))));
-        Series { label: title.clone(), kind: SeriesKind::Measured, points: points.collect() }
-    });
-    FigureData {
-        id: id.into(),
-        title: "CUBE, six meters: error of final gather and of path tracing".into(),
-        caption: format!(
-            "RMS over the meters against the radiosity solution, {} seeds a point; bars: 99 % intervals. {CPU_SECONDS}.",
-            p.replicates
-        ),
-        x: Axis::log(x),
-        y: Axis::log("RMS error, %"),
-        series: series.collect(),
-    }
-}
-
-fn row(strategy: &Strategy, photons: Option<u64>, points: u64, seed: u64, rms: f64, seconds: f64) -> Row {
-    let mut row = Row::new();
-    row.insert("strategy".into(), strategy.id.into());
-    row.insert("photons".into(), photons.into());
-    row.insert("points".into(), points.into());
-    row.insert("seed".into(), seed.into());
-    row.insert("rms".into(), rms.into());
-    row.insert("cpu_seconds".into(), seconds.into());
-    row
+    (if a.low > 1.0 && b.low > 1.0 { Verdict::HoldsWithinLimits } else { Verdict::DoesNotHold }, reason)
 }

@@ -1,0 +1,175 @@
+//! Error and time of strategies against the rays they spend, over one scene's cells.
+
+use photonlab_measure::{
+    Axis, FigureData, Interval, LogLogFit, Point, Replicates, Row, Series, SeriesKind, fit_log_log,
+};
+use photonlab_readout::{Cell, Wanted};
+
+use super::{
+    context::Findings,
+    cpu_clock::{CPU_SECONDS, CpuClock},
+    lab::Lab,
+    strategy::Strategy,
+};
+
+/// Confidence of every interval here.
+pub(super) const CONFIDENCE: f64 = 0.99;
+
+/// Cells whose truth is known.
+pub(super) struct Bench<const C: usize> {
+    /// Its name in rows.
+    pub(super) id: &'static str,
+    pub(super) lab: Lab,
+    pub(super) cells: Vec<Cell>,
+    /// What each cell reads without error, and what its error is taken relative to; `None` leaves a cell out.
+    pub(super) truth: Vec<Option<([f64; C], f64)>>,
+}
+
+/// Error and time of one setting over its seeds.
+pub(super) struct Measured {
+    /// Rays or paths per cell.
+    pub(super) rays: f64,
+    /// Mean over the seeds of the mean square relative error of the cells.
+    square: Replicates,
+    seconds: Replicates,
+}
+
+impl Measured {
+    /// Root of the mean square, with the interval of the mean square carried through the root.
+    pub(super) fn rms(&self) -> Option<Interval> {
+        let square = self.square.interval(CONFIDENCE)?;
+        let root = |x: f64| x.max(0.0).sqrt();
+        Some(Interval { value: root(square.value), low: root(square.low), high: root(square.high), ..square })
+    }
+
+    /// CPU seconds for all cells, mean over the seeds.
+    pub(super) fn seconds(&self) -> f64 {
+        self.seconds.mean().unwrap_or(0.0)
+    }
+}
+
+/// A strategy at rising counts of rays.
+pub(super) struct Curve {
+    pub(super) title: String,
+    pub(super) points: Vec<Measured>,
+}
+
+impl<const C: usize> Bench<C> {
+    /// Path tracing first, then final gather with each count of photons.
+    pub(super) fn curves(
+        &self,
+        points: &[u64],
+        photons: &[u64],
+        seeds: std::ops::Range<u64>,
+        found: &mut Findings,
+    ) -> anyhow::Result<Vec<Curve>> {
+        let path = Curve {
+            title: Strategy::PATH.title.into(),
+            points: self.points(Strategy::PATH, None, points, &seeds, found)?,
+        };
+        let mut curves = vec![path];
+        for &photons in photons {
+            let title = format!("final gather, {photons} photons");
+            let points = self.points(Strategy::FINAL_GATHER, Some(photons), points, &seeds, found)?;
+            curves.push(Curve { title, points });
+        }
+        Ok(curves)
+    }
+
+    fn points(
+        &self,
+        strategy: Strategy,
+        photons: Option<u64>,
+        points: &[u64],
+        seeds: &std::ops::Range<u64>,
+        found: &mut Findings,
+    ) -> anyhow::Result<Vec<Measured>> {
+        let mut one = |points: u64| -> anyhow::Result<Measured> {
+            let mut measured = Measured { rays: points as f64, square: Replicates::new(), seconds: Replicates::new() };
+            for seed in seeds.clone() {
+                let clock = CpuClock::start();
+                let wanted = Wanted { photons, samples: Some(points), ..Wanted::default() };
+                let outcome = self.lab.read::<C>(&self.cells, strategy.settings(seed), &wanted, CONFIDENCE)?;
+                let spent = clock.seconds();
+                let square = self.mean_square_error(&outcome);
+                measured.square.push(square);
+                measured.seconds.push(spent);
+                found.rows.push(row(self.id, &strategy, photons, points, seed, square.sqrt(), spent));
+            }
+            Ok(measured)
+        };
+        points.iter().map(|&points| one(points)).collect()
+    }
+
+    fn mean_square_error(&self, outcome: &photonlab_readout::Outcome<C>) -> f64 {
+        let (mut sum, mut count) = (0.0, 0.0);
+        for (cell, truth) in outcome.cells.iter().zip(&self.truth) {
+            let Some((truth, scale)) = truth else { continue };
+            for c in 0..C {
+                sum += ((cell.value[c].mean().unwrap_or(0.0) - truth[c]) / scale).powi(2);
+                count += 1.0;
+            }
+        }
+        sum / count
+    }
+}
+
+/// RMS error of the first curve against its rays.
+pub(super) fn path_law(curves: &[Curve]) -> anyhow::Result<LogLogFit> {
+    law(&curves[0], |m| m.rays)
+}
+
+fn law(curve: &Curve, place: impl Fn(&Measured) -> f64) -> anyhow::Result<LogLogFit> {
+    let x: Vec<f64> = curve.points.iter().map(place).collect();
+    let y: Vec<f64> = curve.points.iter().map(|m| m.square.mean().unwrap_or(0.0).sqrt()).collect();
+    Ok(fit_log_log(&x, &y)?)
+}
+
+/// Paths at the error of a final-gather setting, over its rays; the interval is that of the setting's error.
+pub(super) fn paths_per_ray(law: &LogLogFit, gather: &Measured) -> Option<Interval> {
+    let rms = gather.rms()?;
+    let paths = |error: f64| law.solve(error, CONFIDENCE).map(|paths| paths.value / gather.rays);
+    Some(Interval { value: paths(rms.value)?, low: paths(rms.high)?, high: paths(rms.low)?, confidence: CONFIDENCE })
+}
+
+/// Time of final gather, photons included, over that of path tracing at the error of the last curve's last point.
+pub(super) fn time_ratio(curves: &[Curve]) -> Option<f64> {
+    let law = law(&curves[0], Measured::seconds).ok()?;
+    let last = curves.last()?.points.last()?;
+    Some(last.seconds() / law.solve(last.rms()?.value, CONFIDENCE)?.value)
+}
+
+/// The curves over what `place` says.
+pub(super) fn chart(
+    id: &str,
+    title: &str,
+    x: &str,
+    seeds: u64,
+    curves: &[Curve],
+    place: impl Fn(&Measured) -> f64,
+) -> FigureData {
+    let series = curves.iter().map(|curve| {
+        let points = curve.points.iter().filter_map(|m| Some(Point::measured(place(m), m.rms()?.scaled(100.0))));
+        Series { label: curve.title.clone(), kind: SeriesKind::Measured, points: points.collect() }
+    });
+    FigureData {
+        id: id.into(),
+        title: title.into(),
+        caption: format!("{seeds} seeds a point; bars: 99 % intervals. {CPU_SECONDS}."),
+        x: Axis::log(x),
+        y: Axis::log("RMS error, %"),
+        series: series.collect(),
+    }
+}
+
+fn row(scene: &str, strategy: &Strategy, photons: Option<u64>, points: u64, seed: u64, rms: f64, seconds: f64) -> Row {
+    let mut row = Row::new();
+    row.insert("scene".into(), scene.into());
+    row.insert("strategy".into(), strategy.id.into());
+    row.insert("photons".into(), photons.into());
+    row.insert("points".into(), points.into());
+    row.insert("seed".into(), seed.into());
+    row.insert("rms".into(), rms.into());
+    row.insert("cpu_seconds".into(), seconds.into());
+    row
+}
