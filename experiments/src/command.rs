@@ -25,6 +25,8 @@ pub(crate) enum Command {
     Render(Render),
     /// What a scene needs, and why.
     Plan(Plan),
+    /// Speed against accuracy of every method on a scene (not built yet).
+    Chart(Chart),
     /// Save and describe photon maps.
     Map(Map),
 }
@@ -50,13 +52,13 @@ pub(crate) struct Options {
     #[arg(long, value_enum)]
     pub(crate) direct: Option<DirectName>,
     /// Emitted paths in all, over lamps and passes.
-    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) photons: Option<u64>,
     /// Photons of a nearest-photon estimate [default: 50].
-    #[arg(long, value_name = "K", value_parser = number::positive_count)]
+    #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) k: Option<u64>,
     /// Gather radius in metres [default: from scene and photons].
-    #[arg(long, value_name = "R", value_parser = number::positive)]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) radius: Option<f64>,
     /// Weight of a photon by its distance.
     #[arg(long, value_enum)]
@@ -65,19 +67,19 @@ pub(crate) struct Options {
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
     /// Final-gather rays per point [default: 1].
-    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) gather_rays: Option<u32>,
     /// Cache final gather's results.
     #[arg(long)]
     pub(crate) cache: bool,
     /// Passes, each with photons and rays of its own.
-    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) passes: Option<u64>,
     /// Longest light path in segments, as Mitsuba counts them.
-    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) max_depth: Option<u32>,
     /// Longest run of lossless specular events [default: 1000].
-    #[arg(long, value_name = "N", value_parser = number::small_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) max_specular: Option<u32>,
     /// Photons from a saved map.
     #[arg(long, value_name = "FILE")]
@@ -86,7 +88,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "WxH", value_parser = number::size)]
     pub(crate) size: Option<[u32; 2]>,
     /// Points per pixel or cell in all.
-    #[arg(long, value_name = "N", value_parser = number::positive_count)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) spp: Option<u64>,
     /// The sensor to read [default: render: the first camera; measure: every meter].
     #[arg(long, value_name = "ID")]
@@ -95,19 +97,19 @@ pub(crate) struct Options {
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub(crate) seed: u64,
     /// Threads [default: all cores]. No result depends on it.
-    #[arg(long, value_name = "T", value_parser = number::threads)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number::threads)]
     pub(crate) threads: Option<u32>,
     /// Where to compute.
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceName,
     /// Stop when the interval's half-width is this share of the value (1% or 0.01).
-    #[arg(long, value_name = "E", value_parser = number::share)]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = number::share)]
     pub(crate) target_error: Option<f64>,
     /// Confidence of the intervals.
-    #[arg(long, value_name = "P", value_parser = number::probability, default_value = "0.95")]
+    #[arg(long, value_name = "P", allow_negative_numbers = true, value_parser = number::probability, default_value = "0.95")]
     pub(crate) confidence: f64,
     /// Stop after this wall time.
-    #[arg(long, value_name = "SECONDS", value_parser = number::positive)]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) time_limit: Option<f64>,
     /// Units of results.
     #[arg(long, value_enum, default_value = "radiometric")]
@@ -129,7 +131,7 @@ pub(crate) struct Reproduce {
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceName,
     /// Threads [default: all cores]. No result depends on it.
-    #[arg(long, value_name = "T", value_parser = number::threads)]
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number::threads)]
     pub(crate) threads: Option<u32>,
 }
 
@@ -163,8 +165,17 @@ pub(crate) struct Plan {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// The wanted error.
-    #[arg(long, value_name = "E", value_parser = number::share)]
+    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = number::share)]
     pub(crate) target_error: Option<f64>,
+}
+
+#[derive(Args)]
+pub(crate) struct Chart {
+    #[command(flatten)]
+    pub(crate) scene: SceneArguments,
+    /// Where the chart goes.
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Args)]

@@ -22,6 +22,9 @@ pub(crate) fn install() {
 pub(crate) fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Result<()> {
     use anyhow::Context;
     let _guard = writing();
+    // A link keeps pointing where it did: the file behind it is replaced.
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.into());
+    let path = target.as_path();
     let mut partial = path.as_os_str().to_owned();
     partial.push(".partial");
     let partial = std::path::PathBuf::from(partial);

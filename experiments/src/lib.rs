@@ -6,6 +6,7 @@
 #[macro_use]
 mod say;
 
+mod chart;
 mod chosen;
 mod command;
 mod exr_header;
@@ -47,6 +48,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Render(arguments) => render::render(&arguments),
         Command::Plan(arguments) => plan::plan(&arguments),
+        Command::Chart(arguments) => chart::chart(&arguments),
         Command::Map(arguments) => map::map(&arguments),
     };
     match result {
