@@ -3,7 +3,7 @@
 use photonlab_photometry::Channels;
 use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
 use photonlab_sampling::Lamps;
-use photonlab_scene::{Bsdf, Meter, Needs, Receiver, Scene, World, read::read_scene};
+use photonlab_scene::{Needs, Receiver, Scene, World, read::read_scene};
 
 use crate::{
     Failure,
@@ -33,35 +33,6 @@ impl Loaded {
             return Ok(());
         }
         Err(Failure::usage(format!("{}:1: scene: no lamp; add an <emitter>", file.display())))
-    }
-
-    /// Refuses a meter that no photon can be recorded on.
-    pub(crate) fn meters_are_readable(&self, file: &std::path::Path, sensors: &[usize]) -> Result<(), Failure> {
-        let scene = &self.world.scene;
-        for &index in sensors {
-            let sensor = &scene.sensors[index];
-            let Receiver::Meter(Meter::Irradiancemeter { shape }) = sensor.receiver else {
-                continue;
-            };
-            if is_specular_in_front(&scene.shapes[shape].bsdf) {
-                return Err(Failure::usage(format!(
-                    "{}:1: sensor `{}`: irradiance on the specular shape `{}` is not built yet; put the meter on a diffuse \
-                     shape (reflectance 0 disturbs least)",
-                    file.display(),
-                    sensor.id,
-                    scene.shapes[shape].id
-                )));
-            }
-        }
-        Ok(())
-    }
-}
-
-fn is_specular_in_front(bsdf: &Bsdf) -> bool {
-    match bsdf {
-        Bsdf::Diffuse { .. } => false,
-        Bsdf::Dielectric { .. } | Bsdf::Mirror { .. } => true,
-        Bsdf::TwoSided { front, .. } => is_specular_in_front(front),
     }
 }
 

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use photonlab_gather::{AreaModel, Bandwidth, CHECK, GatherPoint, PhotonMap, Scratch, Tests};
+use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, Stream, lamp_pdf_solid_angle, sample_direct, warp};
+use photonlab_sampling::{Lamps, Sight, Stream, lamp_pdf_solid_angle, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
 use crate::{EyeLimits, Light, Start, segment};
@@ -47,36 +47,38 @@ pub struct Gatherer<'w, const C: usize> {
 }
 
 impl<const C: usize> Gatherer<'_, C> {
-    /// One sample of the irradiance at a surface point on the side of `normal`; `used` segments lie between it and the
-    /// sensor. Point lamps at distance d and cosine c count with weight 1 / (1 + `share` c / d^2) there; the rest is the
-    /// caller's. The first bounce draws five numbers: three for the lamp, two for
-    /// the direction.
+    /// One sample of the irradiance at a surface point on the side of `sight`, each direction weighted as `sight` says;
+    /// `used` segments lie between it and the sensor. Point lamps at distance d and cosine c count with weight
+    /// 1 / (1 + `share` c / d^2) there; the rest is the caller's. The first bounce draws five numbers: three for the lamp,
+    /// two for the direction.
     pub fn irradiance(
         &self,
         at: &SurfacePoint,
-        normal: DVec3,
+        sight: Sight<C>,
         used: u32,
         share: f64,
         stream: &mut Stream,
         scratch: &mut Scratch,
     ) -> Light<C> {
         let mut light = Light::default();
-        let (mut at, mut normal, mut used) = (*at, normal, used);
+        let (mut at, mut sight, mut used) = (*at, sight, used);
         let mut weight = Colour::ONE;
         for bounce in 0.. {
             let share = if bounce == 0 { share } else { 0.0 };
-            light.add(&self.lamps_at(&at, normal, used, share, stream).weighted(weight));
-            light.add(&self.caustics_at(&at, normal, used, scratch).weighted(weight));
+            light.add(&self.lamps_at(&at, &sight, used, share, stream).weighted(weight));
+            light.add(&self.caustics_at(&at, &sight, used, scratch).weighted(weight));
             if !self.looks_around || !self.limits.allows(used + 1) {
                 break;
             }
-            let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
+            let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normal);
+            weight = weight * sight.weight(direction.dot(sight.normal));
             stream.leave_prefix();
             let ray = Ray::new(at.position, direction);
-            let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used };
+            let seeks_lamps = self.maps.is_none();
+            let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps };
             let landing = segment::follow(self.world, self.lamps, &self.limits, start, stream);
             if let Some((hit, emitted)) = landing.first_emission
-                && let Some(balance) = self.balance(&at, normal, direction, &hit)
+                && let Some(balance) = self.balance(&at, sight.normal, direction, &hit)
             {
                 let contribution = Light { irradiance: emitted * (PI * balance), ..Light::default() };
                 light.add(&contribution.weighted(weight));
@@ -86,15 +88,15 @@ impl<const C: usize> Gatherer<'_, C> {
                 let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
-            let Some((hit, reflectance, carried)) = landing.diffuse else {
+            let Some((hit, seen, carried)) = landing.matte else {
                 break;
             };
-            weight = weight * reflectance * carried;
+            weight = weight * seen.factor * carried;
             used = landing.segments;
             if weight.is_zero() {
                 break;
             }
-            if let Some(gathered) = self.far_landing(&hit, landing.distance, used, scratch) {
+            if let Some(gathered) = self.far_landing(&hit, &seen, landing.distance, used, scratch) {
                 light.add(&gathered.weighted(weight));
                 break;
             }
@@ -105,26 +107,27 @@ impl<const C: usize> Gatherer<'_, C> {
                 }
                 weight = weight * (1.0 / survival);
             }
-            (at, normal) = (hit.point, hit.facing_normal());
+            (at, sight) = (hit.point, seen);
         }
         light
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
-    fn lamps_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, share: f64, stream: &mut Stream) -> Light<C> {
+    fn lamps_at(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, share: f64, stream: &mut Stream) -> Light<C> {
         let xi = [stream.next(), stream.next(), stream.next()];
         if !self.limits.allows(used + 1) {
             return Light::default();
         }
-        let Some(sample) = sample_direct(self.world, self.lamps, at, normal, xi) else {
+        let Some(sample) = sample_direct(self.world, self.lamps, at, sight.normal, xi) else {
             return Light::default();
         };
-        let by_chance = warp::cosine_hemisphere_pdf_solid_angle(sample.direction.dot(normal));
+        let cosine = sample.direction.dot(sight.normal);
+        let by_chance = warp::cosine_hemisphere_pdf_solid_angle(cosine);
         let balance = match sample.pdf_solid_angle {
             0.0 => 1.0 / (1.0 + share * sample.point_factor),
             pdf => pdf / (pdf + by_chance),
         };
-        Light { irradiance: sample.irradiance * balance, ..Light::default() }
+        Light { irradiance: sample.irradiance * (balance * sight.weight(cosine)), ..Light::default() }
     }
 
     /// The balance heuristic's weight (Veach and Guibas 1995) of a lamp met by a ray drawn by cosine; `None` where lamp
@@ -137,11 +140,11 @@ impl<const C: usize> Gatherer<'_, C> {
     }
 
     /// Caustic light, straight from its map.
-    fn caustics_at(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
+    fn caustics_at(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(caustic) = self.maps.and_then(|maps| maps.caustic) else {
             return Light::default();
         };
-        let mut light = self.read(&caustic, at, normal, used, scratch);
+        let mut light = self.read(&caustic, at, sight, used, scratch);
         if light.photons > 0.0 && self.world.ball_leaves_surface(at, CHECK * caustic.radius) {
             light.unresolved = light.irradiance;
         }
@@ -151,25 +154,32 @@ impl<const C: usize> Gatherer<'_, C> {
     /// What a ray gathers where it lands, unless that is too close to where it came from, to an edge or to another
     /// surface: `None` then, and the walk goes on by a further bounce instead. The ball that must stay on the surface is
     /// the one that checks the bias, twice the radius of the one averaged over.
-    fn far_landing(&self, hit: &Hit, distance: f64, used: u32, scratch: &mut Scratch) -> Option<Light<C>> {
+    fn far_landing(
+        &self,
+        hit: &Hit,
+        sight: &Sight<C>,
+        distance: f64,
+        used: u32,
+        scratch: &mut Scratch,
+    ) -> Option<Light<C>> {
         let surface = self.maps?.surface?;
         let near =
             distance < 2.0 * surface.radius || self.world.ball_leaves_surface(&hit.point, CHECK * surface.radius);
-        (!near).then(|| self.read(&surface, &hit.point, hit.facing_normal(), used, scratch))
+        (!near).then(|| self.read(&surface, &hit.point, sight, used, scratch))
     }
 
     fn read(
         &self,
         source: &MapWithRadius<'_, C>,
         at: &SurfacePoint,
-        normal: DVec3,
+        sight: &Sight<C>,
         used: u32,
         scratch: &mut Scratch,
     ) -> Light<C> {
         let tests =
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
-        let point = gather_point(self.world, at, normal);
-        let estimate = source.map.gather(&point, Bandwidth::Radius(source.radius), AreaModel::Disc, &tests, scratch);
+        let bandwidth = Bandwidth::Radius(source.radius);
+        let estimate = estimate(source.map, self.world, at, sight, bandwidth, AreaModel::Disc, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
@@ -179,7 +189,22 @@ impl<const C: usize> Gatherer<'_, C> {
     }
 }
 
-/// The gather point of a surface point on the side of `normal`.
-pub fn gather_point(world: &World, at: &SurfacePoint, normal: DVec3) -> GatherPoint {
-    GatherPoint { position: world.stored(at.position), normal: normal.as_vec3().to_array() }
+/// The density estimate of what is seen at a surface point.
+#[expect(clippy::too_many_arguments, reason = "where, what and how: each is a thing of its own")]
+pub fn estimate<const C: usize>(
+    map: &PhotonMap<C>,
+    world: &World,
+    at: &SurfacePoint,
+    sight: &Sight<C>,
+    bandwidth: Bandwidth,
+    area: AreaModel,
+    tests: &Tests,
+    scratch: &mut Scratch,
+) -> Estimate<C> {
+    let point = GatherPoint { position: world.stored(at.position), normal: sight.normal.as_vec3().to_array() };
+    if sight.is_plain() {
+        map.gather(&point, bandwidth, area, tests, scratch)
+    } else {
+        map.gather_weighed(&point, bandwidth, area, tests, |cosine| sight.weight(cosine), scratch)
+    }
 }

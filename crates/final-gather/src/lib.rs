@@ -9,6 +9,6 @@ mod gatherer;
 mod light;
 mod segment;
 
-pub use gatherer::{GatherMaps, Gatherer, MapWithRadius, gather_point};
+pub use gatherer::{GatherMaps, Gatherer, MapWithRadius, estimate};
 pub use light::Light;
 pub use segment::{EyeLimits, Landing, Start, follow};

@@ -1,7 +1,9 @@
 //! From a point or an eye along a ray, through specular surfaces, to where light is read.
 
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Interaction, Lamps, Stream, interaction};
+use photonlab_sampling::{
+    Followed, Interaction, Lamps, LightDraw, Matte, Sight, Stream, balance_pdf, goes_through, interaction,
+};
 use photonlab_scene::{Hit, Ray, World};
 
 /// When a ray that looks for light gives up.
@@ -23,18 +25,19 @@ impl EyeLimits {
 /// Where a ray that looks for light ended.
 #[derive(Clone, Copy, Debug)]
 pub struct Landing<const C: usize> {
-    /// Radiance that reached the ray from lamps behind at least one specular surface.
+    /// Radiance that reached the ray from lamps behind at least one specular surface, lamps seen from rough surfaces
+    /// included.
     pub emitted: Colour<C>,
     /// The lamp's hit, if the very first surface emits towards the ray.
     pub first_emission: Option<(Hit, Colour<C>)>,
-    /// The diffuse point it ended on, with its reflectance and the weight of radiance from there.
-    pub diffuse: Option<(Hit, Colour<C>, Colour<C>)>,
+    /// The matte point it ended on, what is seen of it, and the weight of radiance from there.
+    pub matte: Option<(Hit, Sight<C>, Colour<C>)>,
     /// Segments travelled.
     pub segments: u32,
     /// Distance travelled, metres.
     pub distance: f64,
-    /// True if a specular surface was met.
-    pub specular: bool,
+    /// True if a rough surface was met, which shows light from anywhere: darkness along this ray proves nothing.
+    pub met_rough: bool,
 }
 
 /// Where a ray that looks for light starts.
@@ -48,9 +51,24 @@ pub struct Start {
     pub reach: f64,
     /// Segments between the sensor and here.
     pub used: u32,
+    /// True if lamps seen behind specular surfaces count: then rough surfaces look for lamps themselves.
+    pub seeks_lamps: bool,
 }
 
-/// Follows a ray through specular surfaces to the first diffuse one.
+/// A ray on its way.
+struct Walk<'w, const C: usize> {
+    world: &'w World,
+    lamps: &'w Lamps<C>,
+    ray: Ray,
+    from: Option<u32>,
+    weight: Colour<C>,
+    /// Density per solid angle with which the last rough surface drew the ray; `None` if it sought no lamp.
+    rough_pdf: Option<f64>,
+    bent: bool,
+    landing: Landing<C>,
+}
+
+/// Follows a ray through specular surfaces to the first matte one.
 pub fn follow<const C: usize>(
     world: &World,
     lamps: &Lamps<C>,
@@ -58,51 +76,111 @@ pub fn follow<const C: usize>(
     start: Start,
     stream: &mut Stream,
 ) -> Landing<C> {
-    let Start { mut ray, mut from, mut reach, used } = start;
-    let mut weight = Colour::ONE;
-    let mut landing = Landing {
+    let landing = Landing {
         emitted: Colour::ZERO,
         first_emission: None,
-        diffuse: None,
-        segments: used,
+        matte: None,
+        segments: start.used,
         distance: 0.0,
-        specular: false,
+        met_rough: false,
     };
-    for _ in 0..=limits.max_specular {
-        if !limits.allows(landing.segments + 1) {
-            break;
-        }
-        let Some(hit) = world.cast(&ray, from, reach) else {
-            break;
-        };
-        landing.segments += 1;
-        landing.distance += hit.distance;
-        let emitted = lamps.emitted(hit.point.primitive, hit.front);
-        if !emitted.is_zero() {
-            if landing.specular {
-                landing.emitted += emitted * weight;
-            } else {
-                landing.first_emission = Some((hit, emitted));
+    let mut walk = Walk {
+        world,
+        lamps,
+        ray: start.ray,
+        from: start.from,
+        weight: Colour::ONE,
+        rough_pdf: None,
+        bent: false,
+        landing,
+    };
+    let mut specular = 0;
+    while limits.allows(walk.landing.segments + 1) && specular <= limits.max_specular {
+        let reach = if walk.bent { f64::INFINITY } else { start.reach - walk.landing.distance };
+        let Some(hit) = world.cast(&walk.ray, walk.from, reach) else { break };
+        walk.landing.distance += hit.distance;
+        let (interaction, opacity) = interaction(world, &hit);
+        match if goes_through(opacity, stream) { Interaction::Passed } else { interaction } {
+            Interaction::Passed => {
+                walk.ray = Ray::new(hit.point.position, walk.ray.direction);
+                walk.from = Some(hit.point.primitive);
+                continue;
             }
-        }
-        match interaction(world, &hit) {
-            Interaction::Absorbed => break,
-            Interaction::Diffuse { reflectance } => {
-                landing.diffuse = Some((hit, reflectance, weight));
+            Interaction::Absorbed => {
+                walk.arrive(&hit);
                 break;
             }
-            Interaction::Specular(specular) => {
-                let (next, share, compression) = specular.follow(&ray, &hit, stream);
-                weight = weight * share * compression;
-                if weight.is_zero() {
-                    break;
+            Interaction::Matte(matte) => {
+                walk.arrive(&hit);
+                match matte.look(&walk.ray, &hit, stream) {
+                    Ok(sight) => {
+                        walk.landing.matte = Some((hit, sight, walk.weight));
+                        break;
+                    }
+                    Err(mirrored) => walk.turn(&hit, Matte::<C>::mirrored(&walk.ray, &hit), mirrored, None),
                 }
-                landing.specular = true;
-                reach = f64::INFINITY;
-                ray = next;
-                from = Some(hit.point.primitive);
+            }
+            Interaction::Followed(followed) => {
+                walk.arrive(&hit);
+                let seeks = start.seeks_lamps && limits.allows(walk.landing.segments + 1);
+                if seeks {
+                    walk.seek_lamp(&hit, &followed, stream);
+                }
+                let Some(onward) = followed.draw(&walk.ray, &hit, stream) else { break };
+                let pdf = onward.pdf_solid_angle.filter(|_| seeks);
+                walk.turn(&hit, onward.ray, onward.share * onward.compression, pdf);
             }
         }
+        specular += 1;
+        if walk.weight.is_zero() {
+            break;
+        }
     }
-    landing
+    walk.landing
+}
+
+impl<const C: usize> Walk<'_, C> {
+    /// Counts the segment and what the surface emits.
+    fn arrive(&mut self, hit: &Hit) {
+        self.landing.segments += 1;
+        let emitted = self.lamps.emitted(hit.point.primitive, hit.front);
+        if emitted.is_zero() {
+            return;
+        }
+        if !self.bent {
+            self.landing.first_emission = Some((*hit, emitted));
+            return;
+        }
+        // A rough surface has drawn this lamp as well: the balance heuristic (Veach and Guibas 1995) shares the work.
+        let balance = self.rough_pdf.map_or(1.0, |pdf| {
+            let drawn = balance_pdf(self.world, self.lamps, hit.point.primitive, self.ray.origin, hit.point.position);
+            pdf / (pdf + drawn)
+        });
+        self.landing.emitted += emitted * self.weight * balance;
+    }
+
+    /// Goes on along another ray.
+    fn turn(&mut self, hit: &Hit, ray: Ray, share: Colour<C>, rough_pdf: Option<f64>) {
+        self.weight = self.weight * share;
+        self.ray = ray;
+        self.from = Some(hit.point.primitive);
+        self.rough_pdf = rough_pdf;
+        self.bent = true;
+    }
+
+    /// Adds what a rough surface shows of one lamp.
+    fn seek_lamp(&mut self, hit: &Hit, followed: &Followed<C>, stream: &mut Stream) {
+        let Followed::Rough(_) = followed else { return };
+        self.landing.met_rough = true;
+        let xi = [stream.next(), stream.next(), stream.next()];
+        let Some(draw) = LightDraw::new(self.world, self.lamps, hit.point.position, xi) else { return };
+        let Some((shown, pdf)) = followed.eval(&self.ray, hit, draw.direction) else { return };
+        if shown.is_zero() {
+            return;
+        }
+        let balance =
+            if draw.pdf_solid_angle > 0.0 { draw.pdf_solid_angle / (draw.pdf_solid_angle + pdf) } else { 1.0 };
+        let reaches = draw.reaches(self.world, &hit.point);
+        self.landing.emitted += self.weight * shown * draw.radiance_over_pdf * (balance * reaches);
+    }
 }

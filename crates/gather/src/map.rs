@@ -62,24 +62,45 @@ impl<const C: usize> PhotonMap<C> {
         tests: &Tests,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
+        self.gather_weighed(at, bandwidth, area, tests, |_| 1.0, scratch)
+    }
+
+    /// The same with each photon counted by a weight of the cosine under which it arrived: what passes a coat.
+    pub fn gather_weighed(
+        &self,
+        at: &GatherPoint,
+        bandwidth: Bandwidth,
+        area: AreaModel,
+        tests: &Tests,
+        weigh: impl Fn(f64) -> f64,
+        scratch: &mut Scratch,
+    ) -> Estimate<C> {
         match bandwidth {
-            Bandwidth::Radius(radius) => self.within(at, radius, area, tests),
-            Bandwidth::Nearest { k, max_radius } => self.nearest(at, k, max_radius, area, tests, scratch),
+            Bandwidth::Radius(radius) => self.within(at, radius, area, tests, weigh),
+            Bandwidth::Nearest { k, max_radius } => self.nearest(at, k, max_radius, area, tests, weigh, scratch),
         }
     }
 
     /// All photons in the closed ball over its area (catalogue A1): unbiased where the irradiance is even.
-    fn within(&self, at: &GatherPoint, radius: f64, area: AreaModel, tests: &Tests) -> Estimate<C> {
+    fn within(
+        &self,
+        at: &GatherPoint,
+        radius: f64,
+        area: AreaModel,
+        tests: &Tests,
+        weigh: impl Fn(f64) -> f64,
+    ) -> Estimate<C> {
         let inside = (radius * radius) as f32;
         let (mut ball, mut ring, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
         self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
             let photon = &self.tree.payloads()[index];
             if counts(photon, at, tests) {
+                let flux = photon.flux() * weigh(cosine(photon, at));
                 if distance_squared <= inside {
                     photons += 1;
-                    ball += photon.flux();
+                    ball += flux;
                 } else {
-                    ring += photon.flux();
+                    ring += flux;
                 }
             }
         });
@@ -99,35 +120,24 @@ impl<const C: usize> PhotonMap<C> {
         max_radius: f64,
         area: AreaModel,
         tests: &Tests,
+        weigh: impl Fn(f64) -> f64,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
+        let flux = |index: usize| {
+            let photon = &self.tree.payloads()[index];
+            photon.flux() * weigh(cosine(photon, at))
+        };
         let found = &mut scratch.found;
         self.tree.nearest(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
-            return self.sum(found, max_radius * max_radius, max_radius, area);
+            return sum(found, max_radius * max_radius, max_radius, area, flux);
         }
         let Some(last) = found.pop().filter(|last| last.distance_squared > 0.0) else {
             return Estimate::nothing(0.0);
         };
         let radius_squared = f64::from(last.distance_squared);
-        self.sum(found, radius_squared, radius_squared.sqrt(), area)
-    }
-
-    fn sum(&self, found: &[Neighbour], radius_squared: f64, radius: f64, area: AreaModel) -> Estimate<C> {
-        let half = 0.5 * radius_squared;
-        let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
-        for neighbour in found {
-            let flux = self.tree.payloads()[neighbour.index].flux();
-            all += flux;
-            if f64::from(neighbour.distance_squared) <= half {
-                inner += flux;
-            }
-        }
-        let per_area = 1.0 / area.area(radius_squared);
-        // The inner half of the area has half the bias, so twice the difference is the whole.
-        let bias = (all * per_area - inner * (2.0 * per_area)) * 2.0;
-        Estimate { irradiance: all * per_area, bias, photons: found.len(), radius }
+        sum(found, radius_squared, radius_squared.sqrt(), area, flux)
     }
 
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
@@ -149,6 +159,35 @@ impl<const C: usize> PhotonMap<C> {
         radii.sort_by(f32::total_cmp);
         radii.get(radii.len() / 2).map(|&r| f64::from(r)).filter(|&r| r > 0.0)
     }
+}
+
+/// Flux of photons, their indices and squared distances given, over the area of a radius.
+fn sum<const C: usize>(
+    found: &[Neighbour],
+    radius_squared: f64,
+    radius: f64,
+    area: AreaModel,
+    flux: impl Fn(usize) -> Colour<C>,
+) -> Estimate<C> {
+    let half = 0.5 * radius_squared;
+    let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
+    for neighbour in found {
+        let flux = flux(neighbour.index);
+        all += flux;
+        if f64::from(neighbour.distance_squared) <= half {
+            inner += flux;
+        }
+    }
+    let per_area = 1.0 / area.area(radius_squared);
+    // The inner half of the area has half the bias, so twice the difference is the whole.
+    let bias = (all * per_area - inner * (2.0 * per_area)) * 2.0;
+    Estimate { irradiance: all * per_area, bias, photons: found.len(), radius }
+}
+
+/// Cosine between a photon's way back and the point's normal.
+fn cosine<const C: usize>(photon: &Photon<C>, at: &GatherPoint) -> f64 {
+    let direction = photon.direction.unpack();
+    -f64::from((0..3).map(|axis| direction[axis] * at.normal[axis]).sum::<f32>())
 }
 
 fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -> bool {

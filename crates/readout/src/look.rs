@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
-use photonlab_final_gather::{EyeLimits, Gatherer, Light, Start, follow, gather_point};
-use photonlab_gather::{Bandwidth, CHECK, PhotonMap, Scratch, Tests};
+use photonlab_final_gather::{EyeLimits, Gatherer, Light, Start, estimate, follow};
+use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, Purpose, Stream, sample_direct};
+use photonlab_sampling::{Lamps, Purpose, Sight, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
 use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps, probe};
@@ -57,25 +56,26 @@ impl<const C: usize> Look<'_, C> {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
                 let share = probe::share(self.world, self.lamps, cell);
                 let seed = Seed { first, sample, shift, share };
-                return Sample { light: self.irradiance(&point, point.normal, 0, seed, scratch), dark: false };
+                return Sample {
+                    light: self.irradiance(&point, Sight::meter(point.normal), 0, seed, scratch),
+                    dark: false,
+                };
             }
             Target::Along(ray) => (*ray, f64::INFINITY),
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y]),
         };
-        let start = Start { ray: start, from: None, reach, used: 0 };
+        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true };
         let landing = follow(self.world, self.lamps, &self.limits(), start, &mut eye);
         let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |(_, radiance)| radiance);
         let mut light = Light { irradiance: emitted, ..Light::default() };
-        let diffuse = landing.diffuse.filter(|(_, reflectance, weight)| !(*reflectance * *weight).is_zero());
-        if let Some((hit, reflectance, weight)) = diffuse {
+        let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
+        if let Some((hit, sight, weight)) = matte {
             let seed = Seed { first, sample, shift, share: 0.0 };
-            let found = self.irradiance(&hit.point, hit.facing_normal(), landing.segments, seed, scratch);
-            light.add(&found.weighted(reflectance * weight * (1.0 / PI)));
+            let found = self.irradiance(&hit.point, sight, landing.segments, seed, scratch);
+            light.add(&found.weighted(sight.factor * weight * (1.0 / PI)));
         }
-        Sample {
-            light,
-            dark: emitted.is_zero() && !diffuse.is_some_and(|_| self.limits().allows(landing.segments + 1)),
-        }
+        let may_be_lit = landing.met_rough || matte.is_some_and(|_| self.limits().allows(landing.segments + 1));
+        Sample { light, dark: emitted.is_zero() && !may_be_lit }
     }
 
     fn stream(&self, index: u64) -> Stream {
@@ -90,7 +90,7 @@ impl<const C: usize> Look<'_, C> {
     fn irradiance(
         &self,
         at: &SurfacePoint,
-        normal: DVec3,
+        sight: Sight<C>,
         used: u32,
         seed: Seed<'_>,
         scratch: &mut Scratch,
@@ -111,15 +111,17 @@ impl<const C: usize> Look<'_, C> {
                         limits: self.limits(),
                         looks_around: self.looks_around,
                     };
-                    gatherer.irradiance(at, normal, used, seed.share, &mut stream, scratch)
+                    gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch)
                 }
                 Method::Nearest { .. } | Method::Radius { .. } => {
-                    let mut one = self.read_map(at, normal, used, scratch);
+                    let mut one = self.read_map(at, &sight, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
-                        let direct = sample_direct(self.world, self.lamps, at, normal, xi);
-                        one.irradiance +=
-                            direct.map_or(Colour::ZERO, |d| d.irradiance * (1.0 / (1.0 + seed.share * d.point_factor)));
+                        let direct = sample_direct(self.world, self.lamps, at, sight.normal, xi);
+                        one.irradiance += direct.map_or(Colour::ZERO, |d| {
+                            let weight = sight.weight(d.direction.dot(sight.normal));
+                            d.irradiance * (weight / (1.0 + seed.share * d.point_factor))
+                        });
                     }
                     one
                 }
@@ -129,7 +131,7 @@ impl<const C: usize> Look<'_, C> {
     }
 
     /// The density estimate at the point itself.
-    fn read_map(&self, at: &SurfacePoint, normal: DVec3, used: u32, scratch: &mut Scratch) -> Light<C> {
+    fn read_map(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, scratch: &mut Scratch) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };
@@ -141,19 +143,7 @@ impl<const C: usize> Look<'_, C> {
             max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
             ..Tests::default()
         };
-        self.estimate(map, bandwidth, &tests, at, normal, scratch)
-    }
-
-    fn estimate(
-        &self,
-        map: &PhotonMap<C>,
-        bandwidth: Bandwidth,
-        tests: &Tests,
-        at: &SurfacePoint,
-        normal: DVec3,
-        scratch: &mut Scratch,
-    ) -> Light<C> {
-        let found = map.gather(&gather_point(self.world, at, normal), bandwidth, self.settings.area, tests, scratch);
+        let found = estimate(map, self.world, at, sight, bandwidth, self.settings.area, &tests, scratch);
         let reach = match bandwidth {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,

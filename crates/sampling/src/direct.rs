@@ -6,6 +6,83 @@ use photonlab_scene::{Ball, Ray, Surface, SurfacePoint, World};
 
 use crate::{LampKind, Lamps, lamp::point_on_surface, spherical_rectangle::SphericalRectangle, warp};
 
+/// One point of a lamp, drawn; whether it is seen is not known yet.
+#[derive(Clone, Copy, Debug)]
+pub struct LightDraw<const C: usize> {
+    /// Towards the lamp, unit.
+    pub direction: DVec3,
+    /// Distance to it in metres; infinite for parallel light.
+    pub distance: f64,
+    /// The primitive it lies on, if any.
+    pub on: Option<u32>,
+    /// Radiance over its density per solid angle, the choice of the lamp included: times the cosine, its mean is the
+    /// irradiance.
+    pub radiance_over_pdf: Colour<C>,
+    /// Density per solid angle, the choice of the lamp included; zero for lamps without extent.
+    pub pdf_solid_angle: f64,
+    /// True if the draw alone is good: lamps without extent, and lamps drawn evenly over the solid angle under which they
+    /// are seen. Else rays that meet the lamp by chance must share the work.
+    pub alone: bool,
+    /// True for a lamp at a point.
+    pub is_point: bool,
+}
+
+impl<const C: usize> LightDraw<C> {
+    /// Draws one lamp and one point of it, from three numbers, as seen from a position.
+    pub fn new(world: &World, lamps: &Lamps<C>, from: DVec3, xi: [f64; 3]) -> Option<Self> {
+        if lamps.lamps.is_empty() {
+            return None;
+        }
+        let index = lamps.choose(xi[0]);
+        let chosen = lamps.probability[index];
+        match &lamps.lamps[index].kind {
+            LampKind::Point { position, intensity } => {
+                let offset = *position - from;
+                let distance = offset.length();
+                Some(Self {
+                    direction: offset / distance,
+                    distance,
+                    on: None,
+                    radiance_over_pdf: *intensity * (1.0 / (distance * distance * chosen)),
+                    pdf_solid_angle: 0.0,
+                    alone: true,
+                    is_point: true,
+                })
+            }
+            LampKind::Directional { direction, irradiance, .. } => Some(Self {
+                direction: -*direction,
+                distance: f64::INFINITY,
+                on: None,
+                radiance_over_pdf: *irradiance * (1.0 / chosen),
+                pdf_solid_angle: 0.0,
+                alone: true,
+                is_point: false,
+            }),
+            LampKind::Area { primitive, radiance, .. } => {
+                let draw = AreaDraw::new(world, *primitive, from);
+                let position = draw.position([xi[1], xi[2]]);
+                let offset = position - from;
+                let distance = offset.length();
+                let pdf = chosen * draw.pdf_solid_angle(position);
+                (pdf > 0.0).then(|| Self {
+                    direction: offset / distance,
+                    distance,
+                    on: Some(*primitive),
+                    radiance_over_pdf: *radiance * (1.0 / pdf),
+                    pdf_solid_angle: pdf,
+                    alone: is_drawn_alone(world, *primitive),
+                    is_point: false,
+                })
+            }
+        }
+    }
+
+    /// The share of the light that reaches a surface point: 0 where something stands between, less than 1 behind masks.
+    pub fn reaches(&self, world: &World, point: &SurfacePoint) -> f64 {
+        world.unblocked(&Ray::new(point.position, self.direction), Some(point.primitive), self.distance, self.on)
+    }
+}
+
 /// One draw of direct light that was found unblocked.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectSample<const C: usize> {
@@ -30,45 +107,32 @@ pub fn sample_direct<const C: usize>(
     normal: DVec3,
     xi: [f64; 3],
 ) -> Option<DirectSample<C>> {
-    if lamps.lamps.is_empty() {
+    let draw = LightDraw::new(world, lamps, point.position, xi)?;
+    let cosine = draw.direction.dot(normal);
+    if cosine <= 0.0 {
         return None;
     }
-    let index = lamps.choose(xi[0]);
-    let chosen = lamps.probability[index];
-    let visible = |direction: DVec3, distance: f64, to: Option<u32>| {
-        world.sees(&Ray::new(point.position, direction), Some(point.primitive), distance, to)
-    };
-    match &lamps.lamps[index].kind {
-        LampKind::Point { position, intensity } => {
-            let offset = *position - point.position;
-            let distance = offset.length();
-            let direction = offset / distance;
-            let cosine = direction.dot(normal);
-            let lit = cosine > 0.0 && visible(direction, distance, None);
-            let point_factor = cosine / (distance * distance);
-            let irradiance = *intensity * (point_factor / chosen);
-            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle: 0.0, point_factor })
-        }
-        LampKind::Directional { direction, irradiance, .. } => {
-            let cosine = -direction.dot(normal);
-            let lit = cosine > 0.0 && visible(-*direction, f64::INFINITY, None);
-            let irradiance = *irradiance * (cosine / chosen);
-            lit.then_some(DirectSample { direction: -*direction, irradiance, pdf_solid_angle: 0.0, point_factor: 0.0 })
-        }
-        LampKind::Area { primitive, radiance, .. } => {
-            let draw = AreaDraw::new(world, *primitive, point.position);
-            let position = draw.position([xi[1], xi[2]]);
-            let offset = position - point.position;
-            let distance = offset.length();
-            let direction = offset / distance;
-            let cosine = direction.dot(normal);
-            let pdf = chosen * draw.pdf_solid_angle(position);
-            let lit = cosine > 0.0 && pdf > 0.0 && visible(direction, distance, Some(*primitive));
-            let irradiance = *radiance * (cosine / pdf);
-            let pdf_solid_angle = if is_drawn_alone(world, *primitive) { 0.0 } else { pdf };
-            lit.then_some(DirectSample { direction, irradiance, pdf_solid_angle, point_factor: 0.0 })
-        }
-    }
+    let reaches = draw.reaches(world, point);
+    (reaches > 0.0).then(|| DirectSample {
+        direction: draw.direction,
+        irradiance: draw.radiance_over_pdf * (cosine * reaches),
+        pdf_solid_angle: if draw.alone { 0.0 } else { draw.pdf_solid_angle },
+        point_factor: if draw.is_point { cosine / (draw.distance * draw.distance) } else { 0.0 },
+    })
+}
+
+/// Density per solid angle with which [`LightDraw::new`] draws the point `position` of an emitting primitive, seen from
+/// `from`, the choice of the lamp included; zero if it does not emit.
+pub fn balance_pdf<const C: usize>(
+    world: &World,
+    lamps: &Lamps<C>,
+    primitive: u32,
+    from: DVec3,
+    position: DVec3,
+) -> f64 {
+    lamps.of_primitive(primitive).map_or(0.0, |lamp| {
+        lamps.probability[lamp as usize] * AreaDraw::new(world, primitive, from).pdf_solid_angle(position)
+    })
 }
 
 /// Density per solid angle with which [`sample_direct`] draws the point `position` of an emitting primitive, seen from
@@ -81,9 +145,8 @@ pub fn lamp_pdf_solid_angle<const C: usize>(
     from: DVec3,
     position: DVec3,
 ) -> Option<f64> {
-    let lamp = lamps.of_primitive(primitive)?;
-    (!is_drawn_alone(world, primitive))
-        .then(|| lamps.probability[lamp as usize] * AreaDraw::new(world, primitive, from).pdf_solid_angle(position))
+    lamps.of_primitive(primitive)?;
+    (!is_drawn_alone(world, primitive)).then(|| balance_pdf(world, lamps, primitive, from, position))
 }
 
 /// True for emitting primitives whose direct light is drawn evenly over the solid angle under which they are seen: the

@@ -5,15 +5,25 @@
 #![forbid(unsafe_code)]
 
 mod direct;
+mod fresnel;
 mod lamp;
+mod matte;
+mod microfacet;
 mod plan;
+mod rough;
 mod scatter;
+mod specular;
 mod spherical_rectangle;
 mod stream;
 pub mod warp;
 
-pub use direct::{DirectSample, lamp_pdf_solid_angle, sample_direct};
+pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};
+pub use fresnel::{diffuse_fresnel, fresnel_conductor, fresnel_dielectric};
 pub use lamp::{Emission, Lamp, LampKind, Lamps};
+pub use matte::{Matte, Sight};
+pub use microfacet::Facets;
 pub use plan::{EmissionPlan, PlanError};
-pub use scatter::{Interaction, Specular, fresnel_dielectric, interaction};
+pub use rough::{FacetMaterial, Rough, RoughDraw};
+pub use scatter::{Followed, Interaction, Onward, goes_through, interaction};
+pub use specular::Specular;
 pub use stream::{Purpose, Stream, philox4x32};

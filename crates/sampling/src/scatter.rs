@@ -2,125 +2,130 @@
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Bsdf, Hit, Ray, World};
+use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, World};
 
-use crate::Stream;
+use crate::{FacetMaterial, Facets, Matte, Rough, Specular, Stream, warp::Frame};
 
 /// What a surface does to light that arrives at a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Interaction<const C: usize> {
     /// Everything ends here, and nothing is stored (the back of a one-sided coating).
     Absorbed,
-    /// Lambertian reflection on the side of the hit.
-    Diffuse {
-        /// Reflected share.
-        reflectance: Colour<C>,
-    },
+    /// Nothing happens: light goes on as if there were no surface, and no bounce is counted.
+    Passed,
+    /// Light leaves in all directions; photons are stored here.
+    Matte(Matte<C>),
+    /// Light goes on in a direction drawn from a line or a lobe; nothing is stored here.
+    Followed(Followed<C>),
+}
+
+/// Interactions after which light goes on in a drawn direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Followed<const C: usize> {
     /// One or two directions with finite probability.
     Specular(Specular<C>),
+    /// A lobe around such directions.
+    Rough(Rough<C>),
 }
 
-/// Specular interactions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Specular<const C: usize> {
-    /// Mirror reflection.
-    Mirror {
-        /// Reflected share.
-        reflectance: Colour<C>,
-    },
-    /// Reflection or refraction by Fresnel's formulae, unpolarised.
-    Dielectric {
-        /// Index on the far side over the index on the side of the hit.
-        relative_index: f64,
-    },
+/// A direction in which light goes on, drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Onward<const C: usize> {
+    /// From the surface on.
+    pub ray: Ray,
+    /// Share of the flux that goes on.
+    pub share: Colour<C>,
+    /// Radiance seen along the reversed path over the flux share: n1^2 / n2^2 where light is refracted, else 1.
+    pub compression: f64,
+    /// Density per solid angle of the direction; `None` for one with finite probability.
+    pub pdf_solid_angle: Option<f64>,
 }
 
-/// The interaction at a hit.
-pub fn interaction<const C: usize>(world: &World, hit: &Hit) -> Interaction<C> {
-    match world.coating(hit.point.primitive, hit.front) {
-        None | Some(Bsdf::TwoSided { .. }) => Interaction::Absorbed,
-        Some(Bsdf::Diffuse { reflectance }) => Interaction::Diffuse { reflectance: Colour::from_rgb(*reflectance) },
-        Some(Bsdf::Mirror { reflectance }) => {
-            Interaction::Specular(Specular::Mirror { reflectance: Colour::from_rgb(*reflectance) })
+/// What happens at a hit to the light that meets the surface, and the share of light that does: what a mask leaves open
+/// goes on as if there were none. Photons are stored before that is drawn, for they have arrived.
+pub fn interaction<const C: usize>(world: &World, hit: &Hit) -> (Interaction<C>, f64) {
+    let (coating, opacity) = world.coating(hit.point.primitive, hit.front);
+    (coating.map_or(Interaction::Absorbed, |bsdf| of_bsdf(bsdf, hit.front)), opacity)
+}
+
+/// Draws whether light goes through what a mask leaves open.
+pub fn goes_through(opacity: f64, stream: &mut Stream) -> bool {
+    opacity < 1.0 && stream.next() >= opacity
+}
+
+fn of_bsdf<const C: usize>(bsdf: &Bsdf, front: bool) -> Interaction<C> {
+    let colour = Colour::<C>::from_rgb;
+    let followed = |specular| Interaction::Followed(Followed::Specular(specular));
+    match bsdf {
+        Bsdf::TwoSided { .. } | Bsdf::Mask { .. } => Interaction::Absorbed,
+        Bsdf::Null => Interaction::Passed,
+        Bsdf::Diffuse { reflectance } => Interaction::Matte(Matte::bare(colour(*reflectance))),
+        Bsdf::Transmitter { reflectance, transmittance } => {
+            Interaction::Matte(Matte::transmitting(colour(*reflectance), colour(*transmittance)))
         }
-        Some(Bsdf::Dielectric { interior_index, exterior_index }) => {
-            let ratio = interior_index / exterior_index;
-            let relative_index = if hit.front { ratio } else { 1.0 / ratio };
-            Interaction::Specular(Specular::Dielectric { relative_index })
-        }
+        Bsdf::Plastic { reflectance, specular_reflectance, relative_index, nonlinear } => Interaction::Matte(
+            Matte::coated(colour(*reflectance), colour(*specular_reflectance), *relative_index, *nonlinear),
+        ),
+        Bsdf::Mirror { reflectance } => followed(Specular::Mirror { reflectance: colour(*reflectance) }),
+        Bsdf::ThinDielectric { relative_index, specular: [reflected, transmitted] } => followed(Specular::Thin {
+            relative_index: *relative_index,
+            reflectance: colour(*reflected),
+            transmittance: colour(*transmitted),
+        }),
+        Bsdf::Conductor(metal) => Interaction::Followed(conductor(metal)),
+        Bsdf::Dielectric(glass) => Interaction::Followed(dielectric(glass, front)),
     }
 }
 
-impl<const C: usize> Specular<C> {
-    /// Draws how the ray goes on from a hit: the new ray, the factor of its flux, and the factor by which radiance seen
-    /// along the reversed path differs from it (n1^2 / n2^2 when refracted; flux does not change there).
-    pub fn follow(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> (Ray, Colour<C>, f64) {
-        let normal = hit.facing_normal();
-        let cosine = -ray.direction.dot(normal);
-        let mirrored = Ray::new(hit.point.position, (ray.direction + 2.0 * cosine * normal).normalize());
-        match *self {
-            Specular::Mirror { reflectance } => (mirrored, reflectance, 1.0),
-            Specular::Dielectric { relative_index } => {
-                let (reflected, cosine_beyond) = fresnel_dielectric(cosine, relative_index);
-                if stream.next() < reflected {
-                    return (mirrored, Colour::ONE, 1.0);
-                }
-                let direction = refracted(ray.direction, normal, cosine, cosine_beyond, relative_index);
-                let compression = 1.0 / (relative_index * relative_index);
-                (Ray::new(hit.point.position, direction), Colour::ONE, compression)
+fn conductor<const C: usize>(metal: &Conductor) -> Followed<C> {
+    let [eta, k, reflectance] = [metal.eta, metal.k, metal.specular_reflectance].map(Colour::<C>::from_rgb);
+    match metal.roughness {
+        None => Followed::Specular(Specular::Conductor { eta, k, reflectance }),
+        Some(roughness) => Followed::Rough(Rough {
+            facets: Facets::new(roughness),
+            material: FacetMaterial::Conductor { eta, k, reflectance },
+        }),
+    }
+}
+
+fn dielectric<const C: usize>(glass: &Dielectric, front: bool) -> Followed<C> {
+    let ratio = glass.interior_index / glass.exterior_index;
+    let relative_index = if front { ratio } else { 1.0 / ratio };
+    let [reflectance, transmittance] = glass.specular.map(Colour::<C>::from_rgb);
+    match glass.roughness {
+        None => Followed::Specular(Specular::Dielectric { relative_index, reflectance, transmittance }),
+        Some(roughness) => Followed::Rough(Rough {
+            facets: Facets::new(roughness),
+            material: FacetMaterial::Dielectric { relative_index, reflectance, transmittance },
+        }),
+    }
+}
+
+impl<const C: usize> Followed<C> {
+    /// Draws how light goes on from a hit; `None` where it is lost.
+    pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Option<Onward<C>> {
+        match self {
+            Followed::Specular(specular) => Some(specular.draw(ray, hit, stream)),
+            Followed::Rough(rough) => {
+                let frame = Frame::around(hit.facing_normal());
+                let w = frame.local(-ray.direction);
+                let drawn = rough.draw(w, [stream.next(), stream.next(), stream.next()])?;
+                Some(Onward {
+                    ray: Ray::new(hit.point.position, frame.world(drawn.v)),
+                    share: drawn.share,
+                    compression: drawn.compression,
+                    pdf_solid_angle: Some(rough.pdf_solid_angle(w, drawn.v)),
+                })
             }
         }
     }
 
-    /// The largest share of light that goes on, over the channels.
-    pub fn largest_share(&self) -> f64 {
-        match self {
-            Specular::Mirror { reflectance } => reflectance.max(),
-            Specular::Dielectric { .. } => 1.0,
-        }
-    }
-}
-
-fn refracted(direction: DVec3, normal: DVec3, cosine: f64, cosine_beyond: f64, relative_index: f64) -> DVec3 {
-    ((direction + cosine * normal) / relative_index - cosine_beyond * normal).normalize()
-}
-
-/// Share of unpolarised light that a smooth interface reflects, and the cosine of the refracted ray (zero under total
-/// reflection). `cosine` is that of the incident ray, `relative_index` the far side's index over the near side's.
-pub fn fresnel_dielectric(cosine: f64, relative_index: f64) -> (f64, f64) {
-    let sine2_beyond = (1.0 - cosine * cosine).max(0.0) / (relative_index * relative_index);
-    if sine2_beyond >= 1.0 {
-        return (1.0, 0.0);
-    }
-    let beyond = (1.0 - sine2_beyond).sqrt();
-    let s = (cosine - relative_index * beyond) / (cosine + relative_index * beyond);
-    let p = (relative_index * cosine - beyond) / (relative_index * cosine + beyond);
-    (0.5 * (s * s + p * p), beyond)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn fresnel_at_known_angles() {
-        let (normal, _) = fresnel_dielectric(1.0, 1.5);
-        assert!((normal - 0.04).abs() < 1e-12);
-        // At Brewster's angle only the s component is reflected: ((n^2 - 1) / (n^2 + 1))^2 / 2.
-        let brewster = (1.5f64).atan().cos();
-        let (share, _) = fresnel_dielectric(brewster, 1.5);
-        assert!((share - 0.5 * (1.25f64 / 3.25).powi(2)).abs() < 1e-12);
-        assert_eq!(fresnel_dielectric(0.5, 1.0 / 1.5).0, 1.0);
-        assert_eq!(fresnel_dielectric(0.0, 1.5).0, 1.0);
-    }
-
-    #[test]
-    fn fresnel_is_the_same_from_both_sides() {
-        for i in 1..100 {
-            let cosine = f64::from(i) / 100.0;
-            let (share, beyond) = fresnel_dielectric(cosine, 1.5);
-            let (back, cosine_back) = fresnel_dielectric(beyond, 1.0 / 1.5);
-            assert!((share - back).abs() < 1e-12 && (cosine_back - cosine).abs() < 1e-12);
-        }
+    /// What radiance from `direction` contributes to radiance back along the ray, per solid angle, the cosine included;
+    /// and the density with which [`Followed::draw`] draws the direction. `None` for directions of finite probability.
+    pub fn eval(&self, ray: &Ray, hit: &Hit, direction: DVec3) -> Option<(Colour<C>, f64)> {
+        let Followed::Rough(rough) = self else { return None };
+        let frame = Frame::around(hit.facing_normal());
+        let (w, v) = (frame.local(-ray.direction), frame.local(direction));
+        Some((rough.eval(w, v), rough.pdf_solid_angle(w, v)))
     }
 }

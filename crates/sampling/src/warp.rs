@@ -4,6 +4,29 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
+/// An orthonormal frame, z along a unit normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Frame {
+    tangent: DVec3,
+    bitangent: DVec3,
+    normal: DVec3,
+}
+
+impl Frame {
+    pub(crate) fn around(normal: DVec3) -> Self {
+        let (tangent, bitangent) = normal.any_orthonormal_pair();
+        Self { tangent, bitangent, normal }
+    }
+
+    pub(crate) fn local(&self, v: DVec3) -> DVec3 {
+        DVec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
+    }
+
+    pub(crate) fn world(&self, v: DVec3) -> DVec3 {
+        (v.x * self.tangent + v.y * self.bitangent + v.z * self.normal).normalize()
+    }
+}
+
 /// Unit square to the hemisphere around a unit normal, density cos / pi per solid angle.
 pub fn square_to_cosine_hemisphere(xi: [f64; 2], normal: DVec3) -> DVec3 {
     let radius = xi[0].sqrt();

@@ -23,5 +23,6 @@ pub use ray::Ray;
 pub use world::World;
 
 pub use description::{
-    Bsdf, Camera, Emitter, Film, Geometry, Meter, Receiver, Rgb, Scene, Sensor, Shape, SpecularReflectance,
+    Bsdf, Camera, Conductor, Dielectric, Emitter, Film, Geometry, Meter, Microfacets, Receiver, Rgb, Roughness, Scene,
+    Sensor, Shape, SpecularReflectance,
 };

@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Channels;
 
-use crate::description::{Bsdf, Geometry, Meter, Receiver, Scene};
+use crate::description::{Geometry, Meter, Receiver, Scene};
 
 /// One thing that is modelled, or left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -80,30 +80,13 @@ impl Needs {
 }
 
 fn first_specular(scene: &Scene) -> Option<&str> {
-    scene.shapes.iter().find(|shape| is_specular(&shape.bsdf)).map(|shape| shape.id.as_str())
-}
-
-fn is_specular(bsdf: &Bsdf) -> bool {
-    match bsdf {
-        Bsdf::Diffuse { .. } => false,
-        Bsdf::Dielectric { .. } => true,
-        Bsdf::Mirror { reflectance } => *reflectance != [0.0; 3],
-        Bsdf::TwoSided { front, back } => is_specular(front) || is_specular(back),
-    }
-}
-
-fn reflects_diffusely(bsdf: &Bsdf) -> bool {
-    match bsdf {
-        Bsdf::Diffuse { reflectance } => *reflectance != [0.0; 3],
-        Bsdf::Dielectric { .. } | Bsdf::Mirror { .. } => false,
-        Bsdf::TwoSided { front, back } => reflects_diffusely(front) || reflects_diffusely(back),
-    }
+    scene.shapes.iter().find(|shape| shape.bsdf.is_specular()).map(|shape| shape.id.as_str())
 }
 
 /// Why diffusely reflected light can reach a surface that is read, if it can.
 fn indirect_reason(scene: &Scene) -> Option<String> {
     let reflecting: Vec<usize> =
-        (0..scene.shapes.len()).filter(|&index| reflects_diffusely(&scene.shapes[index].bsdf)).collect();
+        (0..scene.shapes.len()).filter(|&index| scene.shapes[index].bsdf.is_diffuse()).collect();
     let &first = reflecting.first()?;
     // One flat face cannot light itself. If nothing else reflects or is metered, its light is never seen again.
     let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. });

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{
     accelerator::{Accelerator, whole},
-    description::{Bsdf, Scene, Shape},
+    description::{Bsdf, Meter, Receiver, Scene, Shape},
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
     ray::Ray,
 };
@@ -21,6 +21,10 @@ pub struct World {
     pub primitives: Vec<Primitive>,
     /// First primitive of each shape, and one past the last of all.
     first_primitive: Vec<u32>,
+    /// Primitives that no ray notices.
+    inert: Vec<bool>,
+    /// Shapes that carry a meter.
+    metered: Vec<bool>,
     bounds: (DVec3, DVec3),
     accelerator: Accelerator,
 }
@@ -35,7 +39,23 @@ impl World {
             first_primitive.push(primitives.len() as u32);
         }
         let bounds: Vec<_> = primitives.iter().map(|p| p.surface.bounds()).collect();
-        Self { scene, primitives, first_primitive, bounds: whole(&bounds), accelerator: Accelerator::new(&bounds) }
+        let mut metered = vec![false; scene.shapes.len()];
+        for sensor in &scene.sensors {
+            if let Receiver::Meter(Meter::Irradiancemeter { shape }) = sensor.receiver {
+                metered[shape] = true;
+            }
+        }
+        let is_inert = |shape: usize| scene.shapes[shape].bsdf == Bsdf::Null && !metered[shape];
+        let inert = primitives.iter().map(|p| is_inert(p.shape as usize)).collect();
+        Self {
+            scene,
+            primitives,
+            first_primitive,
+            inert,
+            metered,
+            bounds: whole(&bounds),
+            accelerator: Accelerator::new(&bounds),
+        }
     }
 
     /// Smallest and largest coordinates of all surfaces, metres; zeros for a scene without surfaces.
@@ -64,15 +84,24 @@ impl World {
         &self.scene.shapes[self.primitives[primitive as usize].shape as usize]
     }
 
-    /// What the surface does to light that arrives on one of its sides; `None` where it absorbs everything.
-    pub fn coating(&self, primitive: u32, front: bool) -> Option<&Bsdf> {
-        match (&self.shape_of(primitive).bsdf, front) {
-            (Bsdf::TwoSided { front, .. }, true) => Some(front),
-            (Bsdf::TwoSided { back, .. }, false) => Some(back),
-            (bsdf @ Bsdf::Dielectric { .. }, _) => Some(bsdf),
-            (bsdf, true) => Some(bsdf),
-            (_, false) => None,
-        }
+    /// True if a primitive's shape carries a meter: photons are stored there whatever the coating.
+    pub fn is_metered(&self, primitive: u32) -> bool {
+        self.metered[self.primitives[primitive as usize].shape as usize]
+    }
+
+    /// What the surface does to light that arrives on one of its sides, and the share of light that meets it at all;
+    /// `None` where it absorbs everything.
+    pub fn coating(&self, primitive: u32, front: bool) -> (Option<&Bsdf>, f64) {
+        let (bsdf, opacity) = match &self.shape_of(primitive).bsdf {
+            Bsdf::Mask { opacity, surface } => (&**surface, *opacity),
+            bsdf => (bsdf, 1.0),
+        };
+        let side = match (bsdf, front) {
+            (Bsdf::TwoSided { front, .. }, true) => Some(&**front),
+            (Bsdf::TwoSided { back, .. }, false) => Some(&**back),
+            (bsdf, front) => (front || bsdf.joins_its_sides()).then_some(bsdf),
+        };
+        (side, opacity)
     }
 
     /// The nearest surface along a ray that starts on `from` (or on no surface), up to a distance.
@@ -105,24 +134,46 @@ impl World {
         best.map(|(distance, primitive)| self.hit(ray, distance, primitive))
     }
 
-    /// True if nothing stands between a point on `from` and a point at `distance` along the ray on `to`.
-    pub fn sees(&self, ray: &Ray, from: Option<u32>, distance: f64, to: Option<u32>) -> bool {
+    /// The share of light that passes between a point on `from` and a point at `distance` along the ray on `to`: 0 if a
+    /// surface stands between, and the product of what masks leave open if none but masks do.
+    pub fn unblocked(&self, ray: &Ray, from: Option<u32>, distance: f64, to: Option<u32>) -> f64 {
         let limit = distance * (1.0 - NEAREST);
         let t_min = NEAREST * ray.origin.abs().max_element();
-        let mut clear = true;
+        let mut open = 1.0;
         self.accelerator.along(ray, limit, |index, reach| {
-            if !clear || to == Some(index) {
-                return if clear { reach } else { 0.0 };
+            if open == 0.0 || to == Some(index) {
+                return if open > 0.0 { reach } else { 0.0 };
             }
-            match self.meet(ray, index, from, t_min) {
-                Some(t) if t < reach => {
-                    clear = false;
-                    0.0
-                }
-                _ => reach,
-            }
+            open *= self.open_share(ray, index, from, t_min, reach);
+            if open > 0.0 { reach } else { 0.0 }
         });
-        clear
+        open
+    }
+
+    /// Share of light that one primitive lets through up to a distance; a ray can cross a curved one several times.
+    fn open_share(&self, ray: &Ray, index: u32, from: Option<u32>, t_min: f64, reach: f64) -> f64 {
+        let (mut open, mut reached) = (1.0, 0.0);
+        let (mut rest, mut from) = (*ray, from);
+        while let Some(t) = self.meet(&rest, index, from, t_min)
+            && reached + t < reach
+        {
+            open *= self.openness(index);
+            if open == 0.0 {
+                break;
+            }
+            reached += t;
+            (rest, from) = (Ray::new(ray.at(reached), ray.direction), Some(index));
+        }
+        open
+    }
+
+    /// Share of light that goes through a primitive as if it were not there.
+    fn openness(&self, primitive: u32) -> f64 {
+        match self.shape_of(primitive).bsdf {
+            Bsdf::Mask { opacity, .. } => 1.0 - opacity,
+            Bsdf::Null => 1.0,
+            _ => 0.0,
+        }
     }
 
     /// True if a closed ball around a point on a primitive reaches over that primitive's edge or onto another one:
@@ -138,7 +189,9 @@ impl World {
             return true;
         }
         self.accelerator.any_near(point.position, radius, |index| {
-            index != point.primitive && self.primitives[index as usize].surface.distance(point.position) <= radius
+            index != point.primitive
+                && !self.inert[index as usize]
+                && self.primitives[index as usize].surface.distance(point.position) <= radius
         })
     }
 
@@ -152,6 +205,9 @@ impl World {
     }
 
     fn meet(&self, ray: &Ray, index: u32, from: Option<u32>, t_min: f64) -> Option<f64> {
+        if self.inert[index as usize] {
+            return None;
+        }
         let starts_here = from == Some(index);
         match &self.primitives[index as usize].surface {
             Surface::Parallelogram(_) if starts_here => None,

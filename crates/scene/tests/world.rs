@@ -73,8 +73,8 @@ fn the_tree_finds_what_brute_force_finds() {
                 );
                 if let Some(hit) = fast {
                     hits += 1;
-                    assert!(world.sees(&ray, None, hit.distance, Some(hit.point.primitive)));
-                    assert!(!world.sees(&ray, None, hit.distance * 1.001, None));
+                    assert_eq!(world.unblocked(&ray, None, hit.distance, Some(hit.point.primitive)), 1.0);
+                    assert_eq!(world.unblocked(&ray, None, hit.distance * 1.001, None), 0.0);
                 }
             }
             assert!(count < 10 || hits > 100, "the rays must meet something for the test to mean anything");

@@ -1,7 +1,9 @@
 //! One photon's path.
 
 use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
-use photonlab_sampling::{EmissionPlan, Interaction, Lamps, Purpose, Specular, Stream, interaction, warp};
+use photonlab_sampling::{
+    EmissionPlan, Followed, Interaction, Lamps, Matte, Purpose, Stream, goes_through, interaction,
+};
 use photonlab_scene::{Hit, Ray, World};
 
 use crate::{Job, SurfaceBook, Traced, ledger::Book};
@@ -130,23 +132,31 @@ impl<const C: usize> Walk<'_, C> {
             self.book(out).escaped += self.flux;
             return Fate::Ended;
         };
+        self.from = Some(hit.point.primitive);
+        let (mut interaction, opacity) = interaction(self.world, &hit);
+        if matches!(interaction, Interaction::Matte(_)) || self.world.is_metered(hit.point.primitive) {
+            self.store(&hit, self.segments + 1, job, out);
+        }
+        if goes_through(opacity, stream) {
+            interaction = Interaction::Passed;
+        }
+        if let Interaction::Passed = interaction {
+            self.ray = Ray::new(hit.point.position, self.ray.direction);
+            return Fate::GoesOn;
+        }
         self.segments += 1;
         self.surface(&hit, out).incident += self.flux;
-        self.from = Some(hit.point.primitive);
-        match interaction(self.world, &hit) {
-            Interaction::Absorbed => {
+        match interaction {
+            Interaction::Absorbed | Interaction::Passed => {
                 self.absorb(&hit, self.flux, out);
                 Fate::Ended
             }
-            Interaction::Diffuse { reflectance } => {
-                self.store(&hit, job, out);
-                self.reflect(&hit, reflectance, stream, out)
-            }
-            Interaction::Specular(specular) => self.pass_on(&hit, specular, job, stream, out),
+            Interaction::Matte(matte) => self.reflect(&hit, &matte, job, stream, out),
+            Interaction::Followed(followed) => self.pass_on(&hit, &followed, job, stream, out),
         }
     }
 
-    fn store(&self, hit: &Hit, job: &Job, out: &mut Traced<C>) {
+    fn store(&self, hit: &Hit, segments: u32, job: &Job, out: &mut Traced<C>) {
         if job.keep.has(self.class) {
             out.positions.push(self.world.stored(hit.point.position));
             out.photons.push(Photon {
@@ -154,24 +164,27 @@ impl<const C: usize> Walk<'_, C> {
                 direction: PackedDirection::pack(self.ray.direction.to_array()),
                 normal: PackedDirection::pack(hit.facing_normal().to_array()),
                 class: self.class,
-                segments: self.segments.min(u32::from(u16::MAX)) as u16,
+                segments: segments.min(u32::from(u16::MAX)) as u16,
             });
         }
     }
 
-    fn reflect(&mut self, hit: &Hit, reflectance: Colour<C>, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
-        let before = self.flux.max();
-        self.lossless_run = if reflectance == Colour::ONE { self.lossless_run + 1 } else { 0 };
+    /// Light enters a matte body and leaves it in any direction, unless its coat mirrors it.
+    fn reflect(&mut self, hit: &Hit, matte: &Matte<C>, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        let (mirrored, share) = matte.enter(&self.ray, hit, stream);
+        if mirrored {
+            return self.go_on(hit, Matte::<C>::mirrored(&self.ray, hit), share, job, stream, out);
+        }
+        self.lossless_run = if matte.is_lossless() { self.lossless_run + 1 } else { 0 };
         self.specular_run = 0;
-        self.keep_share(hit, reflectance, out);
-        // The survivor's strongest channel keeps the strength it had: photons stay of like flux, and no channel's mean
-        // is changed.
-        let survival = self.flux.max() / before;
-        if let Fate::Ended = self.roulette(survival, stream, out) {
+        if let Fate::Ended = self.thin_out(hit, share, stream, out) {
             return Fate::Ended;
         }
+        let (crosses, factor) = matte.side(stream);
+        self.reweight(factor, out);
         self.class = PathClass::Indirect;
-        let direction = warp::square_to_cosine_hemisphere(stream.next2(), hit.facing_normal());
+        let normal = if crosses { -hit.facing_normal() } else { hit.facing_normal() };
+        let direction = matte.leave(normal, stream);
         self.leave(hit, Ray::new(hit.point.position, direction), out);
         Fate::GoesOn
     }
@@ -179,22 +192,37 @@ impl<const C: usize> Walk<'_, C> {
     fn pass_on(
         &mut self,
         hit: &Hit,
-        specular: Specular<C>,
+        followed: &Followed<C>,
         job: &Job,
         stream: &mut Stream,
         out: &mut Traced<C>,
     ) -> Fate {
-        let (ray, share, _) = specular.follow(&self.ray, hit, stream);
+        match followed.draw(&self.ray, hit, stream) {
+            Some(onward) => self.go_on(hit, onward.ray, onward.share, job, stream, out),
+            None => {
+                self.absorb(hit, self.flux, out);
+                Fate::Ended
+            }
+        }
+    }
+
+    /// A share of the light goes on along a ray after a specular interaction.
+    fn go_on(
+        &mut self,
+        hit: &Hit,
+        ray: Ray,
+        share: Colour<C>,
+        job: &Job,
+        stream: &mut Stream,
+        out: &mut Traced<C>,
+    ) -> Fate {
         self.specular_run = if share == Colour::ONE { self.specular_run + 1 } else { 0 };
         if self.specular_run > job.limits.max_specular {
             self.book(out).cut_off += self.flux;
             out.ledger.trapped_paths += 1;
             return Fate::Ended;
         }
-        let before = self.flux.max();
-        self.keep_share(hit, share, out);
-        let survival = self.flux.max() / before;
-        if let Fate::Ended = self.roulette(survival, stream, out) {
+        if let Fate::Ended = self.thin_out(hit, share, stream, out) {
             return Fate::Ended;
         }
         if self.class == PathClass::Direct {
@@ -202,6 +230,26 @@ impl<const C: usize> Walk<'_, C> {
         }
         self.leave(hit, ray, out);
         Fate::GoesOn
+    }
+
+    /// Absorbs what the coating does not hand on, by roulette: the survivor's strongest channel keeps the strength it had,
+    /// so photons stay of like flux, and no channel's mean is changed.
+    fn thin_out(&mut self, hit: &Hit, share: Colour<C>, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        let before = self.flux.max();
+        self.keep_share(hit, share, out);
+        self.roulette(self.flux.max() / before, stream, out)
+    }
+
+    /// Multiplies the flux by a factor of mean one; what it adds or takes is roulette's.
+    fn reweight(&mut self, factor: Colour<C>, out: &mut Traced<C>) {
+        if factor == Colour::ONE {
+            return;
+        }
+        let after = self.flux * factor;
+        let change = after - self.flux;
+        self.book(out).roulette_gain += change.map(|x| x.max(0.0));
+        self.book(out).roulette_loss += change.map(|x| (-x).max(0.0));
+        self.flux = after;
     }
 
     /// Absorbs what the coating does not hand on.

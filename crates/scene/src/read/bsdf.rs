@@ -2,9 +2,10 @@
 
 use crate::Bsdf;
 
+use super::dielectric::{dielectric, plastic, thin};
 use super::element::Element;
 use super::error::SceneError;
-use super::index::{EXTERIOR, INTERIOR, index};
+use super::metal::conductor;
 use super::names::{nearest_first, quote};
 use super::number::Range;
 use super::object::Object;
@@ -22,8 +23,15 @@ pub(super) fn bsdf<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resul
     let object = Object::open(element)?;
     let bsdf = match object.plugin {
         "diffuse" => diffuse(object),
-        "dielectric" => dielectric(object),
-        "conductor" => conductor(object),
+        "dielectric" => dielectric(object, false),
+        "roughdielectric" => dielectric(object, true),
+        "thindielectric" => thin(object),
+        "plastic" => plastic(object),
+        "conductor" => conductor(object, false),
+        "roughconductor" => conductor(object, true),
+        "diffusetransmitter" => transmitter(object),
+        "mask" => mask(object, builder),
+        "null" => null(object),
         "twosided" => twosided(object, builder),
         _ => Err(plugins::refuse(&object)),
     }?;
@@ -57,30 +65,33 @@ fn diffuse(mut object: Object) -> Result<Bsdf, SceneError> {
     Ok(Bsdf::Diffuse { reflectance })
 }
 
-fn dielectric(mut object: Object) -> Result<Bsdf, SceneError> {
-    let tags = ["float", "integer", "string"];
-    let interior_index = object.take("int_ior", &tags)?.map(index).transpose()?.unwrap_or(INTERIOR);
-    let exterior_index = object.take("ext_ior", &tags)?.map(index).transpose()?.unwrap_or(EXTERIOR);
-    for name in ["specular_reflectance", "specular_transmittance"] {
-        if object.colour(name, Range::ANY)?.is_some_and(|factor| factor != [1.0; 3]) {
-            let what = format!("{name} other than 1 is known but not built yet");
-            return Err(object.element.error(what, "remove it: Fresnel's equations give the shares"));
-        }
+/// The extension `diffusetransmitter`: Mitsuba 3 has no such plugin.
+fn transmitter(mut object: Object) -> Result<Bsdf, SceneError> {
+    let reflectance = object.colour("reflectance", Range::SHARE)?.unwrap_or([0.5; 3]);
+    let transmittance = object.colour("transmittance", Range::SHARE)?.unwrap_or([0.5; 3]);
+    if let Some(sum) = (0..3).map(|c| reflectance[c] + transmittance[c]).find(|&sum| sum > 1.0 + 1e-12) {
+        let what = format!("reflectance and transmittance add up to {sum}");
+        return Err(object.element.error(what, "lower one of them: a surface hands on at most what it receives"));
     }
-    object.close(&["eta"])?;
-    Ok(Bsdf::Dielectric { interior_index, exterior_index })
+    object.close(&[])?;
+    Ok(Bsdf::Transmitter { reflectance, transmittance })
 }
 
-/// Mitsuba's default conductor, material "none", is a perfect mirror.
-fn conductor(mut object: Object) -> Result<Bsdf, SceneError> {
-    let material = object.string("material")?;
-    if let Some(metal) = material.filter(|material| !material.eq_ignore_ascii_case("none")) {
-        let what = format!("material {} is known but not built yet", quote(metal));
-        return Err(object.element.error(what, "use material none, a perfect mirror, for now"));
+fn null(object: Object) -> Result<Bsdf, SceneError> {
+    object.close(&[])?;
+    Ok(Bsdf::Null)
+}
+
+fn mask<'e>(mut object: Object<'e>, builder: &mut Builder<'e>) -> Result<Bsdf, SceneError> {
+    let opacity = object.float("opacity", Range::SHARE)?.unwrap_or(0.5);
+    let child = object.single(&TAGS)?;
+    let element = object.element;
+    object.close(&[])?;
+    let child = child.ok_or_else(|| element.error("mask holds no bsdf", "put one into it"))?;
+    match bsdf(child, builder)? {
+        Bsdf::Mask { .. } => Err(child.error("a mask inside a mask", "multiply their opacities and keep one")),
+        surface => Ok(Bsdf::Mask { opacity, surface: Box::new(surface) }),
     }
-    let reflectance = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or([1.0; 3]);
-    object.close(&["eta", "k"])?;
-    Ok(Bsdf::Mirror { reflectance })
 }
 
 fn twosided<'e>(mut object: Object<'e>, builder: &mut Builder<'e>) -> Result<Bsdf, SceneError> {
@@ -99,10 +110,10 @@ fn twosided<'e>(mut object: Object<'e>, builder: &mut Builder<'e>) -> Result<Bsd
 /// The surface that one side of a `twosided` shows: of another `twosided`, its front.
 fn one_side<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<Bsdf, SceneError> {
     match bsdf(element, builder)? {
-        Bsdf::Dielectric { .. } => {
-            Err(element.error("a dielectric cannot be two-sided: light passes it", "use it without twosided"))
-        }
         Bsdf::TwoSided { front, .. } => Ok(*front),
+        passed if passed.joins_its_sides() => {
+            Err(element.error("a surface that light passes cannot be two-sided", "use it without twosided"))
+        }
         opaque => Ok(opaque),
     }
 }

@@ -27,6 +27,10 @@ impl Range {
     pub(super) const SHARE: Range = Range { low: 0.0, high: 1.0, says: "within [0, 1]" };
     /// Emitted light in any of its quantities.
     pub(super) const EMISSION: Range = Range { low: 0.0, high: 1e30, says: "not negative and at most 1e30" };
+    /// Either part of a metal's index.
+    pub(super) const METAL: Range = Range { low: 0.0, high: 1e3, says: "within [0, 1000]" };
+    /// The spread of microfacets' slopes.
+    pub(super) const ROUGHNESS: Range = Range { low: 1e-4, high: 10.0, says: "within [0.0001, 10]" };
     /// A refractive index.
     pub(super) const INDEX: Range = Range { low: 1.0, high: 100.0, says: "within [1, 100]" };
 

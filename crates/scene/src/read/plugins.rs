@@ -32,8 +32,20 @@ const SHAPES: Plugins = Plugins {
 };
 
 const BSDFS: Plugins = Plugins {
-    built: &["diffuse", "dielectric", "conductor", "twosided"],
-    later: &["thindielectric", "roughconductor", "roughdielectric", "plastic", "null", "mask"],
+    built: &[
+        "diffuse",
+        "dielectric",
+        "thindielectric",
+        "roughdielectric",
+        "conductor",
+        "roughconductor",
+        "plastic",
+        "diffusetransmitter",
+        "twosided",
+        "mask",
+        "null",
+    ],
+    later: &[],
     foreign: &[
         "blendbsdf",
         "bumpmap",

@@ -1,7 +1,7 @@
 //! What light does: coatings, lamps, cameras and meters.
 
 use glam::DVec3;
-use photonlab_scene::{Bsdf, Camera, Emitter, Meter, Receiver};
+use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Meter, Microfacets, Receiver, Roughness};
 
 use super::scene;
 
@@ -37,13 +37,32 @@ fn a_shape_without_coating_is_grey_or_black() {
 
 #[test]
 fn dielectrics_take_numbers_and_names() {
-    let dielectric = |interior_index, exterior_index| Bsdf::Dielectric { interior_index, exterior_index };
-    assert_eq!(bsdf("<bsdf type='dielectric'/>"), dielectric(1.5046, 1.000277));
+    let smooth = |interior_index, exterior_index, transmitted| {
+        Bsdf::Dielectric(Dielectric {
+            interior_index,
+            exterior_index,
+            specular: [[1.0; 3], transmitted],
+            roughness: None,
+        })
+    };
+    assert_eq!(bsdf("<bsdf type='dielectric'/>"), smooth(1.5046, 1.000277, [1.0; 3]));
     let named = "<string name='int_ior' value='Diamond'/><string name='ext_ior' value='carbon dioxide'/>";
-    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")), dielectric(2.419, 1.00045));
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")), smooth(2.419, 1.00045, [1.0; 3]));
     let numbers = "<float name='int_ior' value='1'/><integer name='ext_ior' value='2'/>
-        <rgb name='specular_reflectance' value='1 1 1'/><float name='specular_transmittance' value='1'/>";
-    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")), dielectric(1.0, 2.0));
+        <rgb name='specular_reflectance' value='1 1 1'/><rgb name='specular_transmittance' value='1 0.5 0'/>";
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")), smooth(1.0, 2.0, [1.0, 0.5, 0.0]));
+}
+
+#[test]
+fn microfacets_are_beckmanns_unless_the_file_says_otherwise() {
+    let roughness = |xml: &str| match bsdf(&format!("<bsdf type='roughdielectric'>{xml}</bsdf>")) {
+        Bsdf::Dielectric(glass) => glass.roughness.unwrap(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(roughness(""), Roughness { facets: Microfacets::Beckmann, alpha: 0.1 });
+    let ggx = "<string name='distribution' value='ggx'/><float name='alpha' value='0.3'/>
+        <boolean name='sample_visible' value='false'/>";
+    assert_eq!(roughness(ggx), Roughness { facets: Microfacets::Ggx, alpha: 0.3 });
 }
 
 #[test]
@@ -53,6 +72,42 @@ fn a_conductor_of_no_metal_is_a_mirror() {
     }
     let dim = "<bsdf type='conductor'><rgb name='specular_reflectance' value='0.9 0.8 0.7'/></bsdf>";
     assert_eq!(bsdf(dim), Bsdf::Mirror { reflectance: [0.9, 0.8, 0.7] });
+}
+
+#[test]
+fn metals_have_names_and_numbers() {
+    let metal = |xml: &str| match bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")) {
+        Bsdf::Conductor(metal) => (metal.eta, metal.k),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(metal("<float name='eta' value='0.2'/>"), ([0.2; 3], [1.0; 3]));
+    assert_eq!(metal("<rgb name='k' value='1 2 3'/>"), ([0.0; 3], [1.0, 2.0, 3.0]));
+    let gold = metal("<string name='material' value='au'/>");
+    assert!(gold.0[2] > gold.0[0] && gold.1[0] > gold.1[2], "gold reflects red better than blue: {gold:?}");
+}
+
+#[test]
+fn plates_coats_masks_and_transmitters() {
+    let thin = Bsdf::ThinDielectric { relative_index: 1.5, specular: [[1.0; 3]; 2] };
+    let air = "<float name='int_ior' value='1.5'/><float name='ext_ior' value='1'/>";
+    assert_eq!(bsdf(&format!("<bsdf type='thindielectric'>{air}</bsdf>")), thin);
+    let plastic = |nonlinear| Bsdf::Plastic {
+        reflectance: [0.5; 3],
+        specular_reflectance: [1.0; 3],
+        relative_index: 1.5,
+        nonlinear,
+    };
+    assert_eq!(bsdf(&format!("<bsdf type='plastic'>{air}</bsdf>")), plastic(false));
+    let nonlinear = "<boolean name='nonlinear' value='true'/>";
+    assert_eq!(bsdf(&format!("<bsdf type='plastic'>{air}{nonlinear}</bsdf>")), plastic(true));
+    let mask = |opacity| Bsdf::Mask { opacity, surface: Box::new(diffuse(0.5)) };
+    assert_eq!(bsdf("<bsdf type='mask'><bsdf type='diffuse'/></bsdf>"), mask(0.5));
+    let third = "<bsdf type='mask'><float name='opacity' value='0.3'/><bsdf type='diffuse'/></bsdf>";
+    assert_eq!(bsdf(third), mask(0.3));
+    let paper = "<bsdf type='diffusetransmitter'><float name='reflectance' value='0.6'/>
+        <float name='transmittance' value='0.4'/></bsdf>";
+    assert_eq!(bsdf(paper), Bsdf::Transmitter { reflectance: [0.6; 3], transmittance: [0.4; 3] });
+    assert_eq!(bsdf("<bsdf type='null'/>"), Bsdf::Null);
 }
 
 #[test]

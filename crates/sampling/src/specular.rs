@@ -1,0 +1,86 @@
+//! Smooth surfaces: one or two directions with finite probability.
+
+use photonlab_photometry::Colour;
+use photonlab_scene::{Hit, Ray};
+
+use crate::{
+    Onward, Stream,
+    fresnel::{fresnel_conductor, fresnel_dielectric, refracted},
+};
+
+/// Specular interactions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Specular<const C: usize> {
+    /// Mirror reflection.
+    Mirror {
+        /// Reflected share.
+        reflectance: Colour<C>,
+    },
+    /// Reflection by Fresnel's formulae for a metal, unpolarised.
+    Conductor {
+        /// Real part of the index.
+        eta: Colour<C>,
+        /// Imaginary part of the index.
+        k: Colour<C>,
+        /// Further factor.
+        reflectance: Colour<C>,
+    },
+    /// Reflection or refraction by Fresnel's formulae, unpolarised.
+    Dielectric {
+        /// Index on the far side over the index on the side of the hit.
+        relative_index: f64,
+        /// Further factor of the reflected share.
+        reflectance: Colour<C>,
+        /// Further factor of the transmitted share.
+        transmittance: Colour<C>,
+    },
+    /// A thin plate: all reflections between its faces, light passes straight.
+    Thin {
+        /// Index of the plate over that around it.
+        relative_index: f64,
+        /// Further factor of the reflected share.
+        reflectance: Colour<C>,
+        /// Further factor of the transmitted share.
+        transmittance: Colour<C>,
+    },
+}
+
+impl<const C: usize> Specular<C> {
+    /// Draws how the ray goes on from a hit.
+    pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Onward<C> {
+        let normal = hit.facing_normal();
+        let cosine = -ray.direction.dot(normal);
+        let to = |direction, share, compression| Onward {
+            ray: Ray::new(hit.point.position, direction),
+            share,
+            compression,
+            pdf_solid_angle: None,
+        };
+        let mirrored = (ray.direction + 2.0 * cosine * normal).normalize();
+        match *self {
+            Specular::Mirror { reflectance } => to(mirrored, reflectance, 1.0),
+            Specular::Conductor { eta, k, reflectance } => {
+                let fresnel = Colour(std::array::from_fn(|c| fresnel_conductor(cosine, eta[c], k[c])));
+                to(mirrored, reflectance * fresnel, 1.0)
+            }
+            Specular::Dielectric { relative_index, reflectance, transmittance } => {
+                let (reflected, cosine_beyond) = fresnel_dielectric(cosine, relative_index);
+                if stream.next() < reflected {
+                    return to(mirrored, reflectance, 1.0);
+                }
+                let direction = refracted(ray.direction, normal, cosine, cosine_beyond, relative_index);
+                to(direction, transmittance, 1.0 / (relative_index * relative_index))
+            }
+            Specular::Thin { relative_index, reflectance, transmittance } => {
+                // R + T R T + T R^3 T + ... with R at one face, the same at both.
+                let (face, _) = fresnel_dielectric(cosine, relative_index);
+                let reflected = 2.0 * face / (1.0 + face);
+                if stream.next() < reflected {
+                    to(mirrored, reflectance, 1.0)
+                } else {
+                    to(ray.direction, transmittance, 1.0)
+                }
+            }
+        }
+    }
+}

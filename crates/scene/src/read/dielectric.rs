@@ -1,0 +1,73 @@
+//! Glass and coats: `dielectric`, `thindielectric`, `roughdielectric`, `plastic`.
+
+use crate::{Bsdf, Dielectric, Microfacets, Rgb, Roughness};
+
+use super::error::SceneError;
+use super::index::{EXTERIOR, INTERIOR, index};
+use super::number::Range;
+use super::object::Object;
+
+/// Index of plastic that does not say: polypropylene.
+const PLASTIC: f64 = 1.49;
+/// Roughness where the file does not say, as in Mitsuba.
+const ALPHA: f64 = 0.1;
+
+/// Reads a smooth or a rough interface.
+pub(super) fn dielectric(mut object: Object, rough: bool) -> Result<Bsdf, SceneError> {
+    let roughness = if rough { Some(roughness(&mut object)?) } else { None };
+    let (interior_index, exterior_index) = indices(&mut object, INTERIOR)?;
+    let specular = specular(&mut object)?;
+    object.close(&["eta"])?;
+    Ok(Bsdf::Dielectric(Dielectric { interior_index, exterior_index, specular, roughness }))
+}
+
+/// Reads a thin plate.
+pub(super) fn thin(mut object: Object) -> Result<Bsdf, SceneError> {
+    let (interior, exterior) = indices(&mut object, INTERIOR)?;
+    let specular = specular(&mut object)?;
+    object.close(&[])?;
+    Ok(Bsdf::ThinDielectric { relative_index: interior / exterior, specular })
+}
+
+/// Reads a coated diffuse body.
+pub(super) fn plastic(mut object: Object) -> Result<Bsdf, SceneError> {
+    let (interior, exterior) = indices(&mut object, PLASTIC)?;
+    let reflectance = object.colour("diffuse_reflectance", Range::SHARE)?.unwrap_or([0.5; 3]);
+    let specular_reflectance = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or([1.0; 3]);
+    let nonlinear = object.boolean("nonlinear")?.unwrap_or(false);
+    object.close(&[])?;
+    Ok(Bsdf::Plastic { reflectance, specular_reflectance, relative_index: interior / exterior, nonlinear })
+}
+
+/// How the microfacets of a rough surface lie.
+pub(super) fn roughness(object: &mut Object) -> Result<Roughness, SceneError> {
+    let facets = match object.choice("distribution", &["beckmann", "ggx"])? {
+        Some("ggx") => Microfacets::Ggx,
+        _ => Microfacets::Beckmann,
+    };
+    let alpha = object.float("alpha", Range::ROUGHNESS)?.unwrap_or(ALPHA);
+    for name in ["alpha_u", "alpha_v"] {
+        if let Some(element) = object.take(name, &["float", "integer"])? {
+            let what = format!("{name}, a roughness that differs with direction, is known but not built yet");
+            return Err(element.error(what, "give alpha, the same in all directions, for now"));
+        }
+    }
+    // Facets are always drawn as seen; Mitsuba's switch changes noise, not light.
+    object.boolean("sample_visible")?;
+    Ok(Roughness { facets, alpha })
+}
+
+/// Inner and outer index.
+fn indices(object: &mut Object, interior: f64) -> Result<(f64, f64), SceneError> {
+    let tags = ["float", "integer", "string"];
+    let inside = object.take("int_ior", &tags)?.map(index).transpose()?.unwrap_or(interior);
+    let outside = object.take("ext_ior", &tags)?.map(index).transpose()?.unwrap_or(EXTERIOR);
+    Ok((inside, outside))
+}
+
+/// Further factors of the reflected and the transmitted share.
+fn specular(object: &mut Object) -> Result<[Rgb; 2], SceneError> {
+    let reflected = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or([1.0; 3]);
+    let transmitted = object.colour("specular_transmittance", Range::SHARE)?.unwrap_or([1.0; 3]);
+    Ok([reflected, transmitted])
+}

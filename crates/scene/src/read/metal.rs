@@ -1,0 +1,75 @@
+//! Metals: `conductor` and `roughconductor`.
+
+use crate::{Bsdf, Conductor, Rgb};
+
+use super::dielectric::roughness;
+use super::element::Element;
+use super::error::SceneError;
+use super::names::{nearest_first, quote};
+use super::number::Range;
+use super::object::Object;
+
+/// Complex indices in the three channels of sRGB, from the tables of optical constants that Mitsuba carries, turned into
+/// colours as its RGB variants do.
+#[rustfmt::skip]
+const METALS: [(&str, Rgb, Rgb); 23] = [
+    ("Al", [1.6575, 0.8804, 0.52124], [9.2238, 6.2695, 4.837]),
+    ("Au", [0.14304, 0.37531, 1.442], [3.983, 2.3856, 1.6034]),
+    ("Be", [4.185, 3.185, 2.7841], [3.8355, 3.0101, 2.869]),
+    ("Cr", [4.3697, 2.9165, 1.6549], [5.2065, 4.2313, 3.7547]),
+    ("Cu", [0.20101, 0.92375, 1.1022], [3.9133, 2.453, 2.1421]),
+    ("Cu_palik", [0.21323, 0.91972, 1.1024], [3.9219, 2.4573, 2.1366]),
+    ("Hg", [2.3989, 1.44, 0.90957], [6.3276, 4.3719, 3.4218]),
+    ("Ir", [3.0863, 2.0822, 1.6179], [5.5922, 4.0671, 3.2673]),
+    ("K", [0.064043, 0.04641, 0.038185], [2.1042, 1.3489, 0.91313]),
+    ("Li", [0.26579, 0.19562, 0.22095], [3.5402, 2.3111, 1.6686]),
+    ("Mo", [4.484, 3.5251, 2.7763], [4.1114, 3.4208, 3.1506]),
+    ("Na_palik", [0.060269, 0.056141, 0.061988], [3.1793, 2.1125, 1.579]),
+    ("Nb", [3.4201, 2.7901, 2.3956], [3.4414, 2.7377, 2.5797]),
+    ("Ni_palik", [2.3673, 1.6634, 1.4671], [4.4988, 3.0502, 2.3454]),
+    ("Rh", [2.5858, 1.8602, 1.5543], [6.7823, 4.703, 3.9761]),
+    ("Ta", [2.0627, 2.3929, 2.6279], [2.4084, 1.7415, 1.947]),
+    ("TiC", [3.7005, 2.8374, 2.5823], [3.2656, 2.3516, 2.1728]),
+    ("TiN", [1.6484, 1.1505, 1.3798], [3.3683, 1.9435, 1.1021]),
+    ("VC", [3.6576, 2.7527, 2.5327], [3.0683, 2.1987, 1.9632]),
+    ("VN", [2.8656, 2.1192, 1.9401], [3.0322, 2.0561, 1.6163]),
+    ("V_palik", [4.2776, 3.5129, 2.7611], [3.4913, 2.8895, 3.1115]),
+    ("W", [4.3708, 3.3002, 2.9984], [3.5006, 2.6049, 2.2732]),
+    ("a-C", [2.944, 2.2271, 1.9682], [0.88746, 0.7993, 0.81529]),
+];
+
+/// Reads a smooth or a rough metal. Mitsuba's default, material "none", is a perfect mirror.
+pub(super) fn conductor(mut object: Object, rough: bool) -> Result<Bsdf, SceneError> {
+    let roughness = if rough { Some(roughness(&mut object)?) } else { None };
+    let material = object.take("material", &["string"])?;
+    let eta = object.colour("eta", Range::METAL)?;
+    let k = object.colour("k", Range::METAL)?;
+    let specular_reflectance = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or([1.0; 3]);
+    object.close(&[])?;
+    let named = material.map(metal).transpose()?.flatten();
+    if let Some(material) = material.filter(|_| named.is_some() && (eta.is_some() || k.is_some())) {
+        return Err(material.error("both a material and eta or k are given", "keep one of them"));
+    }
+    let (eta, k) = match (named, eta, k) {
+        (Some(indices), ..) => indices,
+        (None, None, None) if roughness.is_none() => {
+            return Ok(Bsdf::Mirror { reflectance: specular_reflectance });
+        }
+        (None, eta, k) => (eta.unwrap_or([0.0; 3]), k.unwrap_or([1.0; 3])),
+    };
+    Ok(Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness }))
+}
+
+/// The indices of a named metal; nothing for "none".
+fn metal(element: &Element) -> Result<Option<(Rgb, Rgb)>, SceneError> {
+    let wanted = element.required("value");
+    if wanted.eq_ignore_ascii_case("none") {
+        return Ok(None);
+    }
+    let found = METALS.iter().find(|(name, ..)| name.eq_ignore_ascii_case(wanted)).map(|(_, eta, k)| (*eta, *k));
+    found.map(Some).ok_or_else(|| {
+        let known = nearest_first(wanted, METALS.iter().map(|(name, ..)| *name));
+        let what = format!("{} is no metal that is known", quote(wanted));
+        element.error(what, format!("give eta and k, or one of {known}"))
+    })
+}

@@ -1,0 +1,114 @@
+"""Every material that Mitsuba 3 has too, in a lit room, against Mitsuba 3 (pip install mitsuba numpy OpenEXR-free: see below).
+
+usage: python materials.py PHOTONLAB [NAME...]
+
+For each material a room is rendered by both programs at 24 x 24 pixels, and blocks of 4 x 4 pixels are compared: the
+difference over the joint uncertainty (standard errors of both, and photonlab's own bias bound). Nothing here is needed
+to build, run or test the project.
+"""
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import mitsuba as mi
+import numpy as np
+
+mi.set_variant("llvm_ad_rgb" if "llvm_ad_rgb" in mi.variants() and "--llvm" in sys.argv else "scalar_rgb")
+
+SIZE, BLOCK, SPP, REPEATS = 24, 4, 256, 16
+
+MATERIALS = {
+    "diffuse": '<bsdf type="diffuse"><rgb name="reflectance" value="0.7 0.4 0.2"/></bsdf>',
+    "mirror": '<bsdf type="conductor"><rgb name="specular_reflectance" value="0.9 0.8 0.7"/></bsdf>',
+    "gold": '<bsdf type="conductor"><string name="material" value="Au"/></bsdf>',
+    "glass": '<bsdf type="dielectric"><float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>',
+    "thin-glass": '<bsdf type="thindielectric"/>',
+    "rough-gold-ggx": '<bsdf type="roughconductor"><string name="material" value="Au"/><string name="distribution" value="ggx"/>'
+    '<float name="alpha" value="0.3"/></bsdf>',
+    "rough-copper-beckmann": '<bsdf type="roughconductor"><string name="material" value="Cu"/><float name="alpha" value="0.2"/></bsdf>',
+    "rough-metal-grazing": '<bsdf type="roughconductor"><rgb name="eta" value="1.5 1.2 1"/><rgb name="k" value="5 4 3"/>'
+    '<string name="distribution" value="ggx"/><float name="alpha" value="0.8"/></bsdf>',
+    "rough-glass-ggx": '<bsdf type="roughdielectric"><string name="distribution" value="ggx"/><float name="alpha" value="0.3"/>'
+    '<float name="int_ior" value="1.5"/><float name="ext_ior" value="1"/></bsdf>',
+    "rough-glass-beckmann": '<bsdf type="roughdielectric"><float name="alpha" value="0.1"/></bsdf>',
+    "plastic": '<bsdf type="plastic"><rgb name="diffuse_reflectance" value="0.6 0.3 0.1"/></bsdf>',
+    "plastic-nonlinear": '<bsdf type="plastic"><rgb name="diffuse_reflectance" value="0.9 0.5 0.1"/><boolean name="nonlinear" value="true"/>'
+    '<float name="int_ior" value="1.9"/></bsdf>',
+    "mask": '<bsdf type="mask"><float name="opacity" value="0.4"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf>',
+    "two-sided": '<bsdf type="twosided"><bsdf type="plastic"/><bsdf type="roughconductor"/></bsdf>',
+}
+
+
+def room(material):
+    def wall(transform, colour):
+        return (
+            f'<shape type="rectangle"><transform name="to_world">{transform}</transform>'
+            f'<bsdf type="diffuse"><rgb name="reflectance" value="{colour}"/></bsdf></shape>'
+        )
+
+    walls = [
+        wall('<rotate x="1" angle="-90"/><translate y="-1"/>', "0.7 0.7 0.7"),
+        wall('<rotate x="1" angle="90"/><translate y="1"/>', "0.7 0.7 0.7"),
+        wall('<translate z="-1"/>', "0.7 0.7 0.7"),
+        wall('<rotate y="1" angle="90"/><translate x="-1"/>', "0.6 0.1 0.1"),
+        wall('<rotate y="1" angle="-90"/><translate x="1"/>', "0.1 0.5 0.1"),
+    ]
+    return f"""<scene version="3.0.0">
+    <integrator type="path"><integer name="max_depth" value="-1"/></integrator>
+    <sensor type="perspective"><float name="fov" value="40"/>
+        <transform name="to_world"><lookat origin="0, 0, 3.6" target="0, 0, 0" up="0, 1, 0"/></transform>
+        <film type="hdrfilm"><integer name="width" value="{SIZE}"/><integer name="height" value="{SIZE}"/><rfilter type="box"/></film>
+        <sampler type="independent"/></sensor>
+    {"".join(walls)}
+    <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><scale value="0.5"/><translate y="0.98"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+        <emitter type="area"><rgb name="radiance" value="8 7 5"/></emitter></shape>
+    <shape type="sphere"><point name="center" x="-0.45" y="-0.5" z="-0.2"/><float name="radius" value="0.4"/>{material}</shape>
+    <shape type="rectangle"><transform name="to_world"><scale value="0.35"/><rotate x="1" angle="-30"/><rotate y="1" angle="-30"/>
+        <translate x="0.45" y="-0.2" z="0.1"/></transform>{material}</shape>
+</scene>"""
+
+
+def blocks(image):
+    n = SIZE // BLOCK
+    return image[:, :, :3].reshape(n, BLOCK, n, BLOCK, 3).mean(axis=(1, 3))
+
+
+def compare(photonlab, name, folder):
+    path = folder / f"{name}.xml"
+    path.write_text(room(MATERIALS[name]))
+    scene = mi.load_file(str(path))
+    runs = np.array([blocks(np.array(mi.render(scene, spp=SPP, seed=i))) for i in range(REPEATS)])
+    theirs, their_error = runs.mean(axis=0), runs.std(axis=0, ddof=1) / REPEATS**0.5
+    ours, bound = [], []
+    for seed in range(REPEATS):
+        out = folder / f"{name}.exr"
+        options = ["--spp", "256", "--photons", "1e6", "--passes", "4", "--seed", str(seed)]
+        subprocess.run([photonlab, "render", path, "-o", out, *options], check=True, capture_output=True)
+        bitmap = mi.Bitmap(str(out))
+        layers = {channel.name: i for i, channel in enumerate(bitmap.struct_())}
+        data = np.array(bitmap)
+        pick = lambda prefix: np.stack([data[:, :, layers[prefix + c]] for c in "RGB"], axis=2)
+        ours.append(blocks(pick("")))
+        bound.append(blocks(pick("bias_bound.")))
+    ours, bound = np.array(ours), np.array(bound).mean(axis=0)
+    mean, error = ours.mean(axis=0), ours.std(axis=0, ddof=1) / REPEATS**0.5
+    joint = np.hypot(error, their_error)
+    z = (mean - theirs) / joint
+    beyond = np.maximum(np.abs(mean - theirs) - bound, 0) / joint
+    total = mean.mean() / theirs.mean() - 1
+    total_error = np.hypot(ours.mean(axis=(1, 2, 3)).std(ddof=1), runs.mean(axis=(1, 2, 3)).std(ddof=1)) / REPEATS**0.5 / theirs.mean()
+    print(
+        f"{name:24} mean {100 * total:+.2f} % +- {100 * total_error:.2f}  rms z {np.sqrt((z**2).mean()):.2f}  "
+        f"worst z {np.abs(z).max():.1f}  beyond the bias bound {beyond.max():.1f}",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    arguments = [a for a in sys.argv[1:] if not a.startswith("--")]
+    with tempfile.TemporaryDirectory() as folder:
+        for name in arguments[1:] or MATERIALS:
+            compare(arguments[0], name, Path(folder))
