@@ -2,13 +2,12 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
 use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, Sight, Stream, lamp_pdf_solid_angle, sample_direct, warp};
+use photonlab_sampling::{Lamps, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, Light, Start, segment};
+use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
@@ -77,11 +76,11 @@ impl<const C: usize> Gatherer<'_, C> {
             let seeks_lamps = self.maps.is_none();
             let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps };
             let landing = segment::follow(self.world, self.lamps, &self.limits, start, stream);
-            if let Some((hit, emitted)) = landing.first_emission
-                && let Some(balance) = self.balance(&at, sight.normal, direction, &hit)
-            {
-                let contribution = Light { irradiance: emitted * (PI * balance), ..Light::default() };
-                light.add(&contribution.weighted(weight));
+            // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
+            if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
+                let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(sight.normal));
+                let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
+                light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
@@ -128,15 +127,6 @@ impl<const C: usize> Gatherer<'_, C> {
             pdf => pdf / (pdf + by_chance),
         };
         Light { irradiance: sample.irradiance * (balance * sight.weight(cosine)), ..Light::default() }
-    }
-
-    /// The balance heuristic's weight (Veach and Guibas 1995) of a lamp met by a ray drawn by cosine; `None` where lamp
-    /// sampling does all the work.
-    fn balance(&self, at: &SurfacePoint, normal: DVec3, direction: DVec3, hit: &Hit) -> Option<f64> {
-        let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(normal));
-        let lamp = hit.point.primitive;
-        let sampled = lamp_pdf_solid_angle(self.world, self.lamps, lamp, at.position, hit.point.position)?;
-        Some(by_chance / (by_chance + sampled))
     }
 
     /// Caustic light, straight from its map.

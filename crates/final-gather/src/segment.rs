@@ -3,6 +3,7 @@
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
     Followed, Interaction, Lamps, LightDraw, Matte, Sight, Stream, balance_pdf, goes_through, interaction,
+    lamp_pdf_solid_angle,
 };
 use photonlab_scene::{Hit, Ray, World};
 
@@ -28,8 +29,8 @@ pub struct Landing<const C: usize> {
     /// Radiance that reached the ray from lamps behind at least one specular surface, lamps seen from rough surfaces
     /// included.
     pub emitted: Colour<C>,
-    /// The lamp's hit, if the very first surface emits towards the ray.
-    pub first_emission: Option<(Hit, Colour<C>)>,
+    /// What the very first surface, or the environment behind no surface, emits towards the ray.
+    pub first_emission: Option<Emitted<C>>,
     /// The matte point it ended on, what is seen of it, and the weight of radiance from there.
     pub matte: Option<(Hit, Sight<C>, Colour<C>)>,
     /// Segments travelled.
@@ -38,6 +39,15 @@ pub struct Landing<const C: usize> {
     pub distance: f64,
     /// True if a rough surface was met, which shows light from anywhere: darkness along this ray proves nothing.
     pub met_rough: bool,
+}
+
+/// A lamp met by a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Emitted<const C: usize> {
+    /// Its radiance towards the ray's start.
+    pub radiance: Colour<C>,
+    /// Density per solid angle with which a draw of lamps finds it from there; `None` if such draws do all the work.
+    pub shared_pdf: Option<f64>,
 }
 
 /// Where a ray that looks for light starts.
@@ -97,7 +107,10 @@ pub fn follow<const C: usize>(
     let mut specular = 0;
     while limits.allows(walk.landing.segments + 1) && specular <= limits.max_specular {
         let reach = if walk.bent { f64::INFINITY } else { start.reach - walk.landing.distance };
-        let Some(hit) = world.cast(&walk.ray, walk.from, reach) else { break };
+        let Some(hit) = world.cast(&walk.ray, walk.from, reach) else {
+            walk.escape();
+            break;
+        };
         walk.landing.distance += hit.distance;
         let (interaction, opacity) = interaction(world, &hit);
         match if goes_through(opacity, stream) { Interaction::Passed } else { interaction } {
@@ -143,20 +156,35 @@ impl<const C: usize> Walk<'_, C> {
     /// Counts the segment and what the surface emits.
     fn arrive(&mut self, hit: &Hit) {
         self.landing.segments += 1;
-        let emitted = self.lamps.emitted(hit.point.primitive, hit.front);
-        if emitted.is_zero() {
+        let radiance = self.lamps.emitted(hit.point.primitive, hit.front);
+        if radiance.is_zero() {
             return;
         }
-        if !self.bent {
-            self.landing.first_emission = Some((*hit, emitted));
-            return;
+        let (primitive, from, to) = (hit.point.primitive, self.ray.origin, hit.point.position);
+        if self.bent {
+            let drawn = self.rough_pdf.map(|pdf| (pdf, balance_pdf(self.world, self.lamps, primitive, from, to)));
+            self.behind_specular(radiance, drawn);
+        } else {
+            let shared_pdf = lamp_pdf_solid_angle(self.world, self.lamps, primitive, from, to);
+            self.landing.first_emission = Some(Emitted { radiance, shared_pdf });
         }
-        // A rough surface has drawn this lamp as well: the balance heuristic (Veach and Guibas 1995) shares the work.
-        let balance = self.rough_pdf.map_or(1.0, |pdf| {
-            let drawn = balance_pdf(self.world, self.lamps, hit.point.primitive, self.ray.origin, hit.point.position);
-            pdf / (pdf + drawn)
-        });
-        self.landing.emitted += emitted * self.weight * balance;
+    }
+
+    /// Counts what comes from infinity.
+    fn escape(&mut self) {
+        let Some((radiance, drawn)) = self.lamps.from_infinity(self.ray.direction) else { return };
+        if self.bent {
+            self.behind_specular(radiance, self.rough_pdf.map(|pdf| (pdf, drawn)));
+        } else {
+            self.landing.first_emission = Some(Emitted { radiance, shared_pdf: Some(drawn) });
+        }
+    }
+
+    /// A lamp behind a specular surface. A rough one has drawn lamps as well: the balance heuristic (Veach and Guibas 1995)
+    /// shares the work by both densities.
+    fn behind_specular(&mut self, radiance: Colour<C>, pdfs: Option<(f64, f64)>) {
+        let balance = pdfs.map_or(1.0, |(pdf, drawn)| pdf / (pdf + drawn));
+        self.landing.emitted += radiance * self.weight * balance;
     }
 
     /// Goes on along another ray.

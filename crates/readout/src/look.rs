@@ -66,7 +66,7 @@ impl<const C: usize> Look<'_, C> {
         };
         let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true };
         let landing = follow(self.world, self.lamps, &self.limits(), start, &mut eye);
-        let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |(_, radiance)| radiance);
+        let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
         let mut light = Light { irradiance: emitted, ..Light::default() };
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {

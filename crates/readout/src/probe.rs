@@ -89,7 +89,8 @@ fn arrival<const C: usize>(
     let [column, row] = [place(uv.x, size[0]), place(uv.y, size[1])];
     let area = world.cell_area(shape, row, size);
     let cosine = -emission.ray.direction.dot(hit.point.normal);
-    let odds = rays_per_point(size) * area * cosine / (4.0 * PI * hit.distance * hit.distance);
+    let towards = lamp.point_emission(emission.ray.direction);
+    let odds = rays_per_point(size) * area * cosine * towards / (4.0 * PI * hit.distance * hit.distance);
     let weight = odds / (1.0 + odds);
     let irradiance = lamp.flux * (weight / (lamps.probability[chosen] * area));
     Some(((row * size[0] + column) as usize, irradiance))

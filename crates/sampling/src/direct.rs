@@ -1,10 +1,12 @@
 //! Direct light at a point by sampling lamps.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Ball, Ray, Surface, SurfacePoint, World};
 
-use crate::{LampKind, Lamps, lamp::point_on_surface, spherical_rectangle::SphericalRectangle, warp};
+use crate::{LampKind, Lamps, lamp::point_on_surface, pattern, spherical_rectangle::SphericalRectangle, warp};
 
 /// One point of a lamp, drawn; whether it is seen is not known yet.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +25,8 @@ pub struct LightDraw<const C: usize> {
     /// True if the draw alone is good: lamps without extent, and lamps drawn evenly over the solid angle under which they
     /// are seen. Else rays that meet the lamp by chance must share the work.
     pub alone: bool,
-    /// True for a lamp at a point.
-    pub is_point: bool,
+    /// Of a lamp at a point, its intensity towards here over its mean; zero for all others.
+    pub point_emission: f64,
 }
 
 impl<const C: usize> LightDraw<C> {
@@ -36,17 +38,19 @@ impl<const C: usize> LightDraw<C> {
         let index = lamps.choose(xi[0]);
         let chosen = lamps.probability[index];
         match &lamps.lamps[index].kind {
-            LampKind::Point { position, intensity } => {
+            LampKind::Point { position, intensity, pattern } => {
                 let offset = *position - from;
                 let distance = offset.length();
-                Some(Self {
-                    direction: offset / distance,
+                let direction = offset / distance;
+                let relative = pattern::relative(pattern, -direction);
+                (relative > 0.0).then(|| Self {
+                    direction,
                     distance,
                     on: None,
-                    radiance_over_pdf: *intensity * (1.0 / (distance * distance * chosen)),
+                    radiance_over_pdf: *intensity * (relative / (distance * distance * chosen)),
                     pdf_solid_angle: 0.0,
                     alone: true,
-                    is_point: true,
+                    point_emission: 4.0 * PI * relative / pattern::integral(pattern),
                 })
             }
             LampKind::Directional { direction, irradiance, .. } => Some(Self {
@@ -56,8 +60,21 @@ impl<const C: usize> LightDraw<C> {
                 radiance_over_pdf: *irradiance * (1.0 / chosen),
                 pdf_solid_angle: 0.0,
                 alone: true,
-                is_point: false,
+                point_emission: 0.0,
             }),
+            LampKind::Environment { environment, .. } => {
+                let direction = environment.draw([xi[1], xi[2]]);
+                let pdf = chosen * environment.pdf_solid_angle(direction);
+                (pdf > 0.0).then(|| Self {
+                    direction,
+                    distance: f64::INFINITY,
+                    on: None,
+                    radiance_over_pdf: environment.radiance(direction) * (1.0 / pdf),
+                    pdf_solid_angle: pdf,
+                    alone: false,
+                    point_emission: 0.0,
+                })
+            }
             LampKind::Area { primitive, radiance, .. } => {
                 let draw = AreaDraw::new(world, *primitive, from);
                 let position = draw.position([xi[1], xi[2]]);
@@ -71,7 +88,7 @@ impl<const C: usize> LightDraw<C> {
                     radiance_over_pdf: *radiance * (1.0 / pdf),
                     pdf_solid_angle: pdf,
                     alone: is_drawn_alone(world, *primitive),
-                    is_point: false,
+                    point_emission: 0.0,
                 })
             }
         }
@@ -94,7 +111,8 @@ pub struct DirectSample<const C: usize> {
     /// share the work with it; zero where the draw alone is good: lamps without extent, and lamps drawn evenly over the
     /// solid angle under which they are seen, whose estimate is bounded.
     pub pdf_solid_angle: f64,
-    /// Cosine over squared distance for a point lamp, 1/m^2; zero for all others.
+    /// Cosine over squared distance for a point lamp, 1/m^2, times its intensity towards here over its mean; zero for all
+    /// others.
     pub point_factor: f64,
 }
 
@@ -117,7 +135,11 @@ pub fn sample_direct<const C: usize>(
         direction: draw.direction,
         irradiance: draw.radiance_over_pdf * (cosine * reaches),
         pdf_solid_angle: if draw.alone { 0.0 } else { draw.pdf_solid_angle },
-        point_factor: if draw.is_point { cosine / (draw.distance * draw.distance) } else { 0.0 },
+        point_factor: if draw.point_emission > 0.0 {
+            draw.point_emission * cosine / (draw.distance * draw.distance)
+        } else {
+            0.0
+        },
     })
 }
 

@@ -1,12 +1,12 @@
 //! Lamps: their flux, and rays drawn from them in proportion to it.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, sync::Arc};
 
 use glam::{DVec2, DVec3};
 use photonlab_photometry::Colour;
-use photonlab_scene::{Ray, Surface, World};
+use photonlab_scene::{Pattern, Ray, Surface, World};
 
-use crate::{Stream, warp};
+use crate::{Environment, Stream, pattern, warp};
 
 /// A source of light with its total flux.
 #[derive(Clone, Debug)]
@@ -22,12 +22,14 @@ pub struct Lamp<const C: usize> {
 /// The kinds of lamp.
 #[derive(Clone, Debug)]
 pub enum LampKind<const C: usize> {
-    /// Isotropic point.
+    /// Point.
     Point {
         /// Metres.
         position: DVec3,
-        /// W/sr or cd.
+        /// W/sr or cd where the pattern is 1.
         intensity: Colour<C>,
+        /// How it depends on direction.
+        pattern: Pattern,
     },
     /// Parallel light through a window that covers the whole scene.
     Directional {
@@ -39,6 +41,15 @@ pub enum LampKind<const C: usize> {
         corner: DVec3,
         /// The window's two sides, metres, across the direction.
         sides: [DVec3; 2],
+    },
+    /// Light from all directions through a disc that covers the scene's bounding sphere.
+    Environment {
+        /// Its radiance.
+        environment: Arc<Environment<C>>,
+        /// Middle of the sphere, metres.
+        centre: DVec3,
+        /// Its radius, metres.
+        radius: f64,
     },
     /// Lambertian front side of one primitive.
     Area {
@@ -53,36 +64,59 @@ pub enum LampKind<const C: usize> {
 
 /// A photon's start.
 #[derive(Clone, Copy, Debug)]
-pub struct Emission {
+pub struct Emission<const C: usize> {
     /// Where it starts and goes.
     pub ray: Ray,
     /// The primitive it starts on, if any.
     pub from: Option<u32>,
+    /// Flux over the lamp's mean per ray: one for most lamps, one on average for all.
+    pub weight: Colour<C>,
 }
 
 impl<const C: usize> Lamp<C> {
-    /// A ray drawn in proportion to the emitted flux: every ray carries the same share of [`Lamp::flux`].
-    pub fn emit(&self, world: &World, stream: &mut Stream) -> Emission {
+    /// A ray drawn in proportion to the emitted flux: of environments in proportion up to [`Emission::weight`], of all
+    /// others every ray carries the same share of [`Lamp::flux`].
+    pub fn emit(&self, world: &World, stream: &mut Stream) -> Emission<C> {
+        let even = |ray, from| Emission { ray, from, weight: Colour::ONE };
         match &self.kind {
-            LampKind::Point { position, .. } => {
-                Emission { ray: Ray::new(*position, warp::square_to_uniform_sphere(stream.next2())), from: None }
+            LampKind::Point { position, pattern, .. } => {
+                even(Ray::new(*position, pattern::draw(pattern, stream)), None)
             }
             LampKind::Directional { direction, corner, sides, .. } => {
                 let [s, t] = stream.next2();
-                Emission { ray: Ray::new(*corner + s * sides[0] + t * sides[1], *direction), from: None }
+                even(Ray::new(*corner + s * sides[0] + t * sides[1], *direction), None)
+            }
+            LampKind::Environment { environment, centre, radius } => {
+                let (towards, weight) = environment.emit(stream);
+                let [s, t] = stream.next2();
+                let (sin, cos) = (2.0 * PI * t).sin_cos();
+                let (tangent, bitangent) = towards.any_orthonormal_pair();
+                let on_disc = s.sqrt() * (cos * tangent + sin * bitangent);
+                let origin = *centre + *radius * (on_disc + 1.01 * towards);
+                Emission { ray: Ray::new(origin, -towards), from: None, weight }
             }
             LampKind::Area { primitive, .. } => {
                 let position = point_on_surface(&world.primitives[*primitive as usize].surface, stream.next2());
                 let point = world.point_on(*primitive, position);
                 let direction = warp::square_to_cosine_hemisphere(stream.next2(), point.normal);
-                Emission { ray: Ray::new(position, direction), from: Some(*primitive) }
+                even(Ray::new(position, direction), Some(*primitive))
             }
+        }
+    }
+
+    /// Of a lamp at a point, its intensity in a direction over its mean over all directions; zero for all others.
+    pub fn point_emission(&self, direction: DVec3) -> f64 {
+        match &self.kind {
+            LampKind::Point { pattern, .. } => {
+                4.0 * PI * pattern::relative(pattern, direction) / pattern::integral(pattern)
+            }
+            _ => 0.0,
         }
     }
 
     /// True for lamps that no ray from a surface can meet by chance.
     pub fn is_delta(&self) -> bool {
-        !matches!(self.kind, LampKind::Area { .. })
+        matches!(self.kind, LampKind::Point { .. } | LampKind::Directional { .. })
     }
 }
 
@@ -103,6 +137,8 @@ pub struct Lamps<const C: usize> {
     pub probability: Vec<f64>,
     /// The lamp of each primitive, if it emits.
     of_primitive: Vec<Option<u32>>,
+    /// The lamp that is the environment, if there is one.
+    environment: Option<usize>,
 }
 
 impl<const C: usize> Lamps<C> {
@@ -126,11 +162,12 @@ impl<const C: usize> Lamps<C> {
                 of_primitive[primitive as usize] = Some(index as u32);
             }
         }
+        let environment = lamps.iter().position(|lamp| matches!(lamp.kind, LampKind::Environment { .. }));
         let total: f64 = lamps.iter().map(|lamp| lamp.flux.max()).sum();
         // Half by flux and half evenly: a weak lamp close to a receiver is not starved.
         let even = 1.0 / lamps.len() as f64;
         let probability = lamps.iter().map(|lamp| 0.5 * lamp.flux.max() / total + 0.5 * even).collect();
-        Self { lamps, probability, of_primitive }
+        Self { lamps, probability, of_primitive, environment }
     }
 
     /// The lamp of a primitive, if that emits.
@@ -146,6 +183,19 @@ impl<const C: usize> Lamps<C> {
                 _ => Colour::ZERO,
             },
             _ => Colour::ZERO,
+        }
+    }
+
+    /// Radiance that comes from infinity along a direction, outwards, and the density per solid angle with which
+    /// [`crate::LightDraw`] draws it, the choice of the lamp included; `None` without an environment.
+    pub fn from_infinity(&self, direction: DVec3) -> Option<(Colour<C>, f64)> {
+        let index = self.environment?;
+        match &self.lamps[index].kind {
+            LampKind::Environment { environment, .. } => {
+                let pdf = self.probability[index] * environment.pdf_solid_angle(direction);
+                Some((environment.radiance(direction), pdf))
+            }
+            _ => None,
         }
     }
 
@@ -166,6 +216,7 @@ impl<const C: usize> Lamps<C> {
     pub fn are_sampled_alone(&self, world: &World) -> bool {
         self.lamps.iter().all(|lamp| match lamp.kind {
             LampKind::Point { .. } | LampKind::Directional { .. } => true,
+            LampKind::Environment { .. } => false,
             LampKind::Area { primitive, .. } => crate::direct::is_drawn_alone(world, primitive),
         })
     }
@@ -178,10 +229,21 @@ impl<const C: usize> Lamps<C> {
 
 fn surfaceless<const C: usize>(world: &World, emitter: &photonlab_scene::Emitter) -> Lamp<C> {
     match emitter {
-        photonlab_scene::Emitter::Point { id, position, intensity } => {
+        photonlab_scene::Emitter::Point { id, position, intensity, pattern } => {
             let intensity = Colour::from_rgb(*intensity);
-            let kind = LampKind::Point { position: *position, intensity };
-            Lamp { id: id.clone(), kind, flux: intensity * (4.0 * PI) }
+            let kind = LampKind::Point { position: *position, intensity, pattern: *pattern };
+            Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
+        }
+        photonlab_scene::Emitter::Environment { id, light } => {
+            let environment = Arc::new(Environment::new(light));
+            let (low, high) = world.bounds();
+            let radius = 0.5 * (high - low).length() * (1.0 + 1e-9);
+            let flux = environment.total * (PI * radius * radius);
+            Lamp {
+                id: id.clone(),
+                kind: LampKind::Environment { environment, centre: 0.5 * (low + high), radius },
+                flux,
+            }
         }
         photonlab_scene::Emitter::Directional { id, direction, irradiance } => {
             let irradiance = Colour::from_rgb(*irradiance);

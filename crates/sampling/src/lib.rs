@@ -5,10 +5,12 @@
 #![forbid(unsafe_code)]
 
 mod direct;
+mod environment;
 mod fresnel;
 mod lamp;
 mod matte;
 mod microfacet;
+mod pattern;
 mod plan;
 mod rough;
 mod scatter;
@@ -18,6 +20,7 @@ mod stream;
 pub mod warp;
 
 pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};
+pub use environment::Environment;
 pub use fresnel::{diffuse_fresnel, fresnel_conductor, fresnel_dielectric};
 pub use lamp::{Emission, Lamp, LampKind, Lamps};
 pub use matte::{Matte, Sight};

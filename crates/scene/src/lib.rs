@@ -13,6 +13,7 @@ mod parallelogram;
 mod primitive;
 mod ray;
 pub mod read;
+mod sky;
 mod world;
 
 pub use ball::Ball;
@@ -20,9 +21,10 @@ pub use needs::{Need, Needs};
 pub use parallelogram::Parallelogram;
 pub use primitive::{Hit, Primitive, Surface, SurfacePoint};
 pub use ray::Ray;
+pub use sky::{Sky, SkyLaw};
 pub use world::World;
 
 pub use description::{
-    Bsdf, Camera, Conductor, Dielectric, Emitter, Film, Geometry, Meter, Microfacets, Receiver, Rgb, Roughness, Scene,
-    Sensor, Shape, SpecularReflectance,
+    Bsdf, Camera, Conductor, Dielectric, Emitter, EnvironmentLight, Film, Geometry, Meter, Microfacets, Pattern,
+    Receiver, Rgb, Roughness, Scene, Sensor, Shape, SkyMap, SpecularReflectance,
 };

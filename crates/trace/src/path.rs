@@ -101,6 +101,7 @@ pub(crate) fn follow<const C: usize>(
     let mut stream = Stream::new(job.seed, Purpose::Photons, job.pass, index);
     let (lamp, flux) = plan.photon(index);
     let emission = lamps.lamps[lamp].emit(world, &mut stream);
+    let flux = flux * emission.weight;
     out.ledger.emitted += flux;
     let mut walk = Walk {
         ray: emission.ray,

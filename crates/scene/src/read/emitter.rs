@@ -2,9 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::{Emitter, Rgb};
+use crate::{Emitter, Pattern, Rgb};
 
 use super::element::Element;
+use super::environment::environment;
 use super::error::SceneError;
 use super::number::Range;
 use super::object::Object;
@@ -19,7 +20,14 @@ pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Re
     let id = builder.id(element, "emitter", builder.scene.emitters.len())?;
     let emitter = match object.plugin {
         "point" => point(object, id, builder)?,
+        "spot" => spot(object, id, builder)?,
         "directional" => directional(object, id, builder)?,
+        "constant" | "envmap" | "sky" => {
+            if builder.scene.emitters.iter().any(|e| matches!(e, Emitter::Environment { .. })) {
+                return Err(element.error("a second environment", "keep one of constant, envmap and sky"));
+            }
+            Emitter::Environment { id, light: environment(object, builder)? }
+        }
         _ => {
             return Err(element.error("an area lamp outside a shape", "put it into the shape that shines"));
         }
@@ -47,8 +55,40 @@ fn point(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitte
     check_one_of(&object, given, to_world, "position")?;
     let position = given.or(to_world.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
     let intensity = emission(&mut object, "intensity", builder)?;
+    let pattern = cosine_power(&mut object)?.unwrap_or(Pattern::Isotropic);
     object.close(&[])?;
-    Ok(Emitter::Point { id, position, intensity })
+    Ok(Emitter::Point { id, position, intensity, pattern })
+}
+
+/// The extension of `point` by which its intensity is a power of the cosine to `direction`.
+fn cosine_power(object: &mut Object) -> Result<Option<Pattern>, SceneError> {
+    let exponent = object.float("exponent", Range::EXPONENT)?;
+    let direction = object.vector("direction", Range::ANY)?;
+    let Some(exponent) = exponent else {
+        return match direction {
+            Some(_) => Err(object.element.error("a direction without exponent", "give both, or neither")),
+            None => Ok(None),
+        };
+    };
+    let along = direction.unwrap_or(DVec3::Z);
+    let axis = unit(along).ok_or_else(|| object.element.error("direction is zero", "give one such as 0 0 -1"))?;
+    Ok(Some(Pattern::Cosine { axis, exponent }))
+}
+
+/// Mitsuba's spot shines along its own +z.
+fn spot(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
+    let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
+    let intensity = emission(&mut object, "intensity", builder)?;
+    let cutoff = object.float("cutoff_angle", Range::CUTOFF)?.unwrap_or(20.0);
+    let beam = object.float("beam_width", Range::CUTOFF)?.unwrap_or(0.75 * cutoff);
+    if beam > cutoff {
+        let what = format!("beam_width {beam} is wider than cutoff_angle {cutoff}");
+        return Err(object.element.error(what, "give half-angles in degrees with beam_width at most cutoff_angle"));
+    }
+    object.close(&["texture"])?;
+    let axis = to_world.matrix3.z_axis.normalize();
+    let pattern = Pattern::Spot { axis, beam: beam.to_radians(), cutoff: cutoff.to_radians() };
+    Ok(Emitter::Point { id, position: to_world.translation, intensity, pattern })
 }
 
 fn directional(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
@@ -64,7 +104,7 @@ fn directional(mut object: Object, id: String, builder: &mut Builder) -> Result<
 }
 
 /// The emitted quantity, 1 if the file does not say, as in Mitsuba.
-fn emission(object: &mut Object, name: &'static str, builder: &mut Builder) -> Result<Rgb, SceneError> {
+pub(super) fn emission(object: &mut Object, name: &'static str, builder: &mut Builder) -> Result<Rgb, SceneError> {
     if object.float("sampling_weight", Range::ANY)?.is_some() {
         builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
     }

@@ -29,6 +29,10 @@ impl Range {
     pub(super) const EMISSION: Range = Range { low: 0.0, high: 1e30, says: "not negative and at most 1e30" };
     /// Either part of a metal's index.
     pub(super) const METAL: Range = Range { low: 0.0, high: 1e3, says: "within [0, 1000]" };
+    /// A power of the cosine.
+    pub(super) const EXPONENT: Range = Range { low: 0.0, high: 1e6, says: "within [0, 1000000]" };
+    /// A half-angle of a spot in degrees.
+    pub(super) const CUTOFF: Range = Range { low: 1e-3, high: 180.0, says: "within [0.001, 180]" };
     /// The spread of microfacets' slopes.
     pub(super) const ROUGHNESS: Range = Range { low: 1e-4, high: 10.0, says: "within [0.0001, 10]" };
     /// A refractive index.

@@ -64,8 +64,8 @@ const BSDFS: Plugins = Plugins {
 };
 
 const EMITTERS: Plugins = Plugins {
-    built: &["area", "point", "directional"],
-    later: &["spot", "constant", "envmap", "ies", "sky"],
+    built: &["area", "point", "spot", "directional", "constant", "envmap", "sky"],
+    later: &["ies"],
     foreign: &["directionalarea", "projector", "sunsky", "timed_sunsky", "volumelight"],
 };
 

@@ -1,7 +1,7 @@
 //! What light does: coatings, lamps, cameras and meters.
 
 use glam::DVec3;
-use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Meter, Microfacets, Receiver, Roughness};
+use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Meter, Microfacets, Pattern, Receiver, Roughness};
 
 use super::scene;
 
@@ -152,7 +152,10 @@ fn lamps_have_positions_directions_and_strengths() {
         direction,
         irradiance: [irradiance; 3],
     };
-    assert_eq!(scene.emitters[0], Emitter::Point { id: "p".to_owned(), position: DVec3::X, intensity: [3.0; 3] });
+    assert_eq!(
+        scene.emitters[0],
+        Emitter::Point { id: "p".to_owned(), position: DVec3::X, intensity: [3.0; 3], pattern: Pattern::Isotropic }
+    );
     assert_eq!(scene.emitters[1], directional(1, DVec3::NEG_Z, 1.0));
     assert_eq!(scene.emitters[2], directional(2, DVec3::new(0.6, 0.0, -0.8), 0.0));
     assert_eq!(scene.shapes[0].radiance, Some([1.0, 2.0, 3.0]));

@@ -74,7 +74,7 @@ fn the_cubes_meters_look_where_they_should() {
     let scene = sample("cube", &[]);
     assert_eq!(scene.channels(), Channels::Grey);
     assert!(scene.shapes[0].flip_normals);
-    let [Emitter::Point { id, position, intensity }] = &scene.emitters[..] else { panic!("{:?}", scene.emitters) };
+    let [Emitter::Point { id, position, intensity, .. }] = &scene.emitters[..] else { panic!("{:?}", scene.emitters) };
     assert_eq!((id.as_str(), *position, *intensity), ("emitter-0", DVec3::ZERO, [50000.0; 3]));
     let targets = [
         ("A-face-centre", DVec3::new(5.0, 0.0, 0.0)),
