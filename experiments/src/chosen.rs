@@ -39,6 +39,7 @@ impl Options {
             MethodName::Nearest => Method::Nearest { k: usize::try_from(k).unwrap_or(usize::MAX) },
             MethodName::Radius => Method::Radius { radius: self.radius },
             MethodName::Path => Method::Path,
+            MethodName::Bins => Method::Bins,
             _ => Method::FinalGather { radius: self.radius },
         };
         let direct = match self.direct {
@@ -97,8 +98,8 @@ impl Options {
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
-    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 8] {
-        use MethodName::{FinalGather, Nearest, Radius};
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 9] {
+        use MethodName::{Bins, FinalGather, Nearest, Path, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
             ("radius", self.radius.is_some(), &[FinalGather, Radius]),
@@ -106,7 +107,8 @@ impl Options {
             ("area", self.area.is_some(), &[Radius, Nearest]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
             ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest]),
-            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest]),
+            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Bins]),
+            ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Path]),
             ("map", self.map.is_some(), &[FinalGather, Radius, Nearest]),
         ]
     }
@@ -115,7 +117,6 @@ impl Options {
         let not_built = match self.method {
             MethodName::Adaptive => Some("--method adaptive"),
             MethodName::Progressive => Some("--method progressive"),
-            MethodName::Bins => Some("--method bins"),
             _ if self.cache => Some("--cache"),
             _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => Some("a kernel other than disc"),
             _ if self.area == Some(AreaName::Clipped) => Some("--area clipped"),

@@ -21,7 +21,7 @@ pub(crate) fn fixed_command<const C: usize>(
         Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
             option("radius", radius.to_string());
         }
-        Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path => {}
+        Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path | Method::Bins => {}
     }
     if settings.direct == Direct::Photons {
         option("direct", "photons".into());
@@ -40,7 +40,9 @@ pub(crate) fn fixed_command<const C: usize>(
         None => {}
     }
     option("passes", outcome.passes.to_string());
-    option("spp", outcome.samples.to_string());
+    if settings.method != Method::Bins {
+        option("spp", outcome.samples.to_string());
+    }
     if options.map.is_none() {
         if let Some(depth) = options.max_depth {
             option("max-depth", depth.to_string());

@@ -4,13 +4,13 @@ use std::{io::Write, time::Instant};
 
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass};
-use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source};
-use photonlab_scene::{Needs, Receiver, Scene};
+use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
+use photonlab_scene::{Emitter, Needs, Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
 
 use crate::{
     Failure, by_channels,
-    command::{self, Options},
+    command::{self, MethodName, Options},
     fixed_command::fixed_command,
     loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors, wanted},
     progress::Progress,
@@ -48,9 +48,10 @@ fn run<const C: usize>(
     cells: &[Cell],
     start: Instant,
 ) -> Result<Measurement, Failure> {
-    let options = &arguments.options;
+    let options = &Options { method: method_for(cells, arguments.options.method), ..arguments.options.clone() };
     let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
     let mut settings = options.settings(&loaded.world.scene)?;
+    is_readable(&loaded.world.scene, cells, &settings)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Worst };
@@ -92,6 +93,26 @@ pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
             ledger.trapped_paths
         );
     }
+}
+
+/// `auto` counts photons where a goniometer is read, which nothing else can do.
+fn method_for(cells: &[Cell], asked: MethodName) -> MethodName {
+    let far = cells.iter().any(|cell| matches!(cell.target, Target::Leaving { .. }));
+    if far && asked == MethodName::Auto { MethodName::Bins } else { asked }
+}
+
+/// Refuses a method that cannot read one of the meters.
+fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(), Failure> {
+    let counts = settings.method == Method::Bins;
+    let wrong = cells.iter().find_map(|cell| match cell.target {
+        Target::Leaving { .. } if !counts => Some((cell, "an intensitymeter is read by --method bins alone")),
+        Target::Along(_) if counts => Some((cell, "photons cannot be counted along a ray; leave out --method bins")),
+        _ => None,
+    });
+    wrong.map_or(Ok(()), |(cell, why)| {
+        let id = &scene.sensors[cell.sensor].id;
+        Err(Failure::usage(format!("sensor `{id}`: {why}; --sensor ID reads one sensor by itself")))
+    })
 }
 
 fn readings<const C: usize>(
@@ -140,7 +161,7 @@ fn readings<const C: usize>(
                     100.0 * unresolved
                 ));
             }
-            if outcome.photons > 0 && !result.dark && result.photons < FEWEST_PHOTONS {
+            if result.asked_photons && result.photons < FEWEST_PHOTONS {
                 reading = reading.not_certified(&format!(
                     "only {} photons were found near what it looks at: too few to tell what light they stand for",
                     result.photons
@@ -157,7 +178,10 @@ fn readings<const C: usize>(
 
 /// Why no reading of this method can be certified in this scene, if so.
 pub(crate) fn doubt(scene: &Scene, settings: &Settings, needs: &Needs) -> Option<String> {
-    if settings.method == Method::Path && needs.caustic && !scene.emitters.is_empty() {
+    if settings.method == Method::Path
+        && needs.caustic
+        && scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }))
+    {
         return Some(
             "path tracing cannot find light that comes from a point or directional lamp through specular surfaces alone".into(),
         );

@@ -175,6 +175,7 @@ impl<const C: usize> Gatherer<'_, C> {
             bias: estimate.bias,
             unresolved: Colour::ZERO,
             photons: estimate.photons as f64,
+            reads: 1.0,
         }
     }
 }

@@ -14,6 +14,8 @@ pub struct Light<const C: usize> {
     pub unresolved: Colour<C>,
     /// Photons gathered.
     pub photons: f64,
+    /// Times that a map was read. Where none was, no photon was asked for: all light came by rays to lamps.
+    pub reads: f64,
 }
 
 impl<const C: usize> Light<C> {
@@ -23,6 +25,7 @@ impl<const C: usize> Light<C> {
         self.bias += other.bias;
         self.unresolved += other.unresolved;
         self.photons += other.photons;
+        self.reads += other.reads;
     }
 
     /// Weights flux quantities; the photons that were looked at stay.
@@ -32,11 +35,16 @@ impl<const C: usize> Light<C> {
             bias: self.bias * weight,
             unresolved: self.unresolved * weight,
             photons: self.photons,
+            reads: self.reads,
         }
     }
 
     /// Divides everything by a number of samples.
     pub fn over(&self, samples: f64) -> Self {
-        Self { photons: self.photons / samples, ..self.weighted(Colour::splat(1.0 / samples)) }
+        Self {
+            photons: self.photons / samples,
+            reads: self.reads / samples,
+            ..self.weighted(Colour::splat(1.0 / samples))
+        }
     }
 }

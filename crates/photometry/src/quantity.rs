@@ -28,6 +28,18 @@ pub enum Quantity {
     /// Radiance weighted by the eye, cd/m^2.
     #[serde(rename = "luminance")]
     Luminance,
+    /// Flux, W.
+    #[serde(rename = "flux")]
+    Flux,
+    /// Flux weighted by the eye, lm.
+    #[serde(rename = "luminous flux")]
+    LuminousFlux,
+    /// Flux per solid angle far away, W/sr.
+    #[serde(rename = "intensity")]
+    Intensity,
+    /// Intensity weighted by the eye, cd.
+    #[serde(rename = "luminous intensity")]
+    LuminousIntensity,
 }
 
 impl Quantity {
@@ -38,6 +50,10 @@ impl Quantity {
             (Quantity::Irradiance | Quantity::Illuminance, UnitSystem::Photometric) => Quantity::Illuminance,
             (Quantity::Radiance | Quantity::Luminance, UnitSystem::Radiometric) => Quantity::Radiance,
             (Quantity::Radiance | Quantity::Luminance, UnitSystem::Photometric) => Quantity::Luminance,
+            (Quantity::Flux | Quantity::LuminousFlux, UnitSystem::Radiometric) => Quantity::Flux,
+            (Quantity::Flux | Quantity::LuminousFlux, UnitSystem::Photometric) => Quantity::LuminousFlux,
+            (Quantity::Intensity | Quantity::LuminousIntensity, UnitSystem::Radiometric) => Quantity::Intensity,
+            (Quantity::Intensity | Quantity::LuminousIntensity, UnitSystem::Photometric) => Quantity::LuminousIntensity,
         }
     }
 
@@ -48,6 +64,10 @@ impl Quantity {
             Quantity::Radiance => Unit::WattPerSquareMetreSteradian,
             Quantity::Illuminance => Unit::Lux,
             Quantity::Luminance => Unit::CandelaPerSquareMetre,
+            Quantity::Flux => Unit::Watt,
+            Quantity::LuminousFlux => Unit::Lumen,
+            Quantity::Intensity => Unit::WattPerSteradian,
+            Quantity::LuminousIntensity => Unit::Candela,
         }
     }
 }
@@ -67,6 +87,18 @@ pub enum Unit {
     /// cd/m^2
     #[serde(rename = "cd/m^2")]
     CandelaPerSquareMetre,
+    /// W
+    #[serde(rename = "W")]
+    Watt,
+    /// lm
+    #[serde(rename = "lm")]
+    Lumen,
+    /// W/sr
+    #[serde(rename = "W/sr")]
+    WattPerSteradian,
+    /// cd
+    #[serde(rename = "cd")]
+    Candela,
 }
 
 impl Unit {
@@ -77,6 +109,10 @@ impl Unit {
             Unit::WattPerSquareMetreSteradian => "W/(m^2 sr)",
             Unit::Lux => "lx",
             Unit::CandelaPerSquareMetre => "cd/m^2",
+            Unit::Watt => "W",
+            Unit::Lumen => "lm",
+            Unit::WattPerSteradian => "W/sr",
+            Unit::Candela => "cd",
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What is read: one pixel, or one cell of a meter.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use photonlab_photometry::Quantity;
-use photonlab_scene::{Camera, Film, Meter, Ray, Receiver, Scene, Sensor};
+use photonlab_scene::{Camera, Film, Meter, Ray, Receiver, Scene, Sensor, World};
 
 /// One place to read.
 #[derive(Clone, Debug)]
@@ -33,6 +33,15 @@ pub enum Target {
         shape: usize,
         /// Columns and rows of the shape's (u, v) square.
         film: Film,
+        /// True if the flux is read, not the irradiance.
+        flux: bool,
+    },
+    /// Intensity of what leaves the scene, in type C angles; counted alone.
+    Leaving {
+        /// A rotation from the goniometer's axes.
+        to_world: DMat3,
+        /// Columns along C, rows along gamma.
+        film: Film,
     },
 }
 
@@ -53,10 +62,22 @@ impl Cell {
         meters.flat_map(|(index, _)| Cell::of_sensor(scene, index)).collect()
     }
 
+    /// What irradiance is multiplied by to give the reading: the area in square metres of a cell whose flux is read.
+    pub(crate) fn area_read(&self, world: &World) -> f64 {
+        match self.target {
+            Target::Patch { shape, film, flux: true } => {
+                world.cell_area(shape, self.cell[1], [film.width, film.height])
+            }
+            _ => 1.0,
+        }
+    }
+
     /// What is read, in watts; the caller relabels.
     pub fn quantity(&self) -> Quantity {
         match self.target {
-            Target::Patch { .. } => Quantity::Irradiance,
+            Target::Patch { flux: true, .. } => Quantity::Flux,
+            Target::Patch { flux: false, .. } => Quantity::Irradiance,
+            Target::Leaving { .. } => Quantity::Intensity,
             Target::Pixel { .. } | Target::Along(_) => Quantity::Radiance,
         }
     }
@@ -66,7 +87,13 @@ fn target(sensor: &Sensor) -> Target {
     match &sensor.receiver {
         Receiver::Camera(camera) => Target::Pixel { camera: camera.clone(), film: sensor.film },
         Receiver::Meter(Meter::Radiancemeter { origin, direction }) => Target::Along(Ray::new(*origin, *direction)),
-        Receiver::Meter(Meter::Irradiancemeter { shape }) => Target::Patch { shape: *shape, film: sensor.film },
+        Receiver::Meter(Meter::Irradiancemeter { shape }) => {
+            Target::Patch { shape: *shape, film: sensor.film, flux: false }
+        }
+        Receiver::Meter(Meter::Fluxmeter { shape }) => Target::Patch { shape: *shape, film: sensor.film, flux: true },
+        Receiver::Meter(Meter::Intensitymeter { to_world }) => {
+            Target::Leaving { to_world: *to_world, film: sensor.film }
+        }
     }
 }
 

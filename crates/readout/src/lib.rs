@@ -5,6 +5,7 @@
 //! says so.
 #![forbid(unsafe_code)]
 
+mod bins;
 mod cells;
 mod checked_file;
 mod identity;

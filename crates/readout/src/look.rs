@@ -52,7 +52,8 @@ impl<const C: usize> Look<'_, C> {
         let mut eye = self.stream(first);
         let [x, y, z, ..] = lattice::point(sample * rays, shift);
         let (start, reach) = match &cell.target {
-            Target::Patch { shape, film } => {
+            Target::Leaving { .. } => return Sample { light: Light::default(), dark: false },
+            Target::Patch { shape, film, .. } => {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
                 let share = probe::share(self.world, self.lamps, cell);
                 let seed = Seed { first, sample, shift, share };
@@ -113,6 +114,7 @@ impl<const C: usize> Look<'_, C> {
                     };
                     gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch)
                 }
+                Method::Bins => Light::default(),
                 Method::Nearest { .. } | Method::Radius { .. } => {
                     let mut one = self.read_map(at, &sight, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
@@ -154,6 +156,7 @@ impl<const C: usize> Look<'_, C> {
             bias: found.bias,
             unresolved: if unresolved { found.irradiance } else { Colour::ZERO },
             photons: found.photons as f64,
+            reads: 1.0,
         }
     }
 }

@@ -98,7 +98,7 @@ impl<const C: usize> PassMaps<C> {
             .transpose()?;
         let fixed = match settings.method {
             Method::Radius { radius } | Method::FinalGather { radius } => radius,
-            Method::Nearest { .. } | Method::Path => None,
+            Method::Nearest { .. } | Method::Path | Method::Bins => None,
         };
         let count = if final_gather { FINAL_GATHER_COUNT } else { DIRECT_VIEW_COUNT };
         let shrink = f64::from(pass + 1).powf(-SHRINK);

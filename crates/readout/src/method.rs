@@ -23,6 +23,8 @@ pub enum Method {
     },
     /// Path tracing without a map: the control.
     Path,
+    /// Photons counted in the receivers' cells, without a map.
+    Bins,
 }
 
 impl Method {
@@ -33,6 +35,7 @@ impl Method {
             Method::Radius { .. } => "radius",
             Method::FinalGather { .. } => "final-gather",
             Method::Path => "path",
+            Method::Bins => "bins",
         }
     }
 }
@@ -68,7 +71,7 @@ impl Settings {
     /// Classes of photon that the method reads.
     pub fn classes(&self) -> Classes {
         match (self.method, self.direct) {
-            (Method::Path, _) => Classes::NONE,
+            (Method::Path | Method::Bins, _) => Classes::NONE,
             (Method::FinalGather { .. }, _) | (_, Direct::Photons) => Classes::ALL,
             (_, Direct::Sampled) => Classes { direct: false, ..Classes::ALL },
         }

@@ -21,6 +21,8 @@ pub struct CellResult<const C: usize> {
     pub unresolved: [Replicates; C],
     /// Photons behind the value, over all passes.
     pub photons: f64,
+    /// True if a map was read at all.
+    pub asked_photons: bool,
     /// True if every sample proved that there can be no light.
     pub dark: bool,
 }
@@ -28,7 +30,7 @@ pub struct CellResult<const C: usize> {
 impl<const C: usize> Default for CellResult<C> {
     fn default() -> Self {
         let none = [Replicates::new(); C];
-        Self { value: none, bias: none, unresolved: none, photons: 0.0, dark: true }
+        Self { value: none, bias: none, unresolved: none, photons: 0.0, asked_photons: false, dark: true }
     }
 }
 
@@ -41,6 +43,7 @@ impl<const C: usize> CellResult<C> {
             self.unresolved[channel].push(mean.unresolved[channel]);
         }
         self.photons += photons;
+        self.asked_photons |= mean.reads > 0.0;
         self.dark &= dark;
     }
 

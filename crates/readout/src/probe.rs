@@ -20,7 +20,7 @@ const BLOCK: u64 = 1024;
 /// What the weight of a point on a cell needs: (n1 / n2) A / (4 pi), zero where no rays are sent.
 pub(crate) fn share<const C: usize>(world: &World, lamps: &Lamps<C>, cell: &Cell) -> f64 {
     match &cell.target {
-        Target::Patch { shape, film } if has_point_lamp(lamps) => {
+        Target::Patch { shape, film, .. } if has_point_lamp(lamps) => {
             let area = world.cell_area(*shape, cell.cell[1], [film.width, film.height]);
             rays_per_point([film.width, film.height]) * area / (4.0 * PI)
         }
@@ -47,7 +47,7 @@ pub(crate) fn probe<const C: usize>(
     stream: impl Fn(u64) -> Stream + Sync,
 ) -> Vec<Colour<C>> {
     let mut found = vec![Colour::ZERO; cells.len()];
-    let Some(Target::Patch { shape, film }) = cells.first().map(|cell| &cell.target) else { return found };
+    let Some(Target::Patch { shape, film, .. }) = cells.first().map(|cell| &cell.target) else { return found };
     if !has_point_lamp(lamps) {
         return found;
     }

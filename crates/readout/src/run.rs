@@ -3,7 +3,7 @@
 use photonlab_measure::Stopped;
 use photonlab_trace::Ledger;
 
-use crate::{CellResult, Method, Outcome, PassPhotons, Session, maps::Radii};
+use crate::{CellResult, Method, Outcome, Session, maps::Radii};
 
 /// What the passes so far have found.
 pub(crate) struct Run<const C: usize> {
@@ -31,17 +31,17 @@ impl<const C: usize> Run<C> {
         }
     }
 
-    pub(crate) fn book(&mut self, pass: &PassPhotons<C>) {
-        self.photons += pass.emitted;
+    pub(crate) fn book(&mut self, emitted: u64, pass: &Ledger<C>) {
+        self.photons += emitted;
         match &mut self.ledger {
-            Some(ledger) => ledger.add(&pass.ledger),
-            None => self.ledger = Some(pass.ledger.clone()),
+            Some(ledger) => ledger.add(pass),
+            None => self.ledger = Some(pass.clone()),
         }
     }
 
     pub(crate) fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
         let per_pass = 1.0 / self.passes as f64;
-        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path);
+        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path | Method::Bins);
         Outcome {
             ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),

@@ -6,13 +6,14 @@ use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, PlanError, Purpose, Stream};
+use photonlab_sampling::{EmissionPlan, Lamps, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
-use photonlab_trace::TraceError;
+use photonlab_trace::{Job, TraceError, count};
 use rayon::prelude::*;
 
 use crate::{
     Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings,
+    bins::Bins,
     look::{Look, Sample},
     maps::PassMaps,
     probe::probe,
@@ -84,7 +85,11 @@ impl<const C: usize> Session<'_, C> {
         let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
         Demands {
             gather_rays: self.settings.gather_rays,
-            fewest_photons: if self.uses_maps() { self.lamps.lamps.len().max(1) as u64 } else { 0 },
+            fewest_photons: if self.uses_maps() || self.settings.method == Method::Bins {
+                self.lamps.lamps.len().max(1) as u64
+            } else {
+                0
+            },
             // A density estimate at one point is the same however often it is made in one pass.
             most_samples: if from_map { 1 << 8 } else { 1 << 13 },
         }
@@ -93,7 +98,7 @@ impl<const C: usize> Session<'_, C> {
     /// True if the method reads any map in this scene.
     fn uses_maps(&self) -> bool {
         match self.settings.method {
-            Method::Path => false,
+            Method::Path | Method::Bins => false,
             Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic,
             Method::Nearest { .. } | Method::Radius { .. } => {
                 self.settings.classes().direct || self.needs.indirect || self.needs.caustic
@@ -161,7 +166,7 @@ impl<const C: usize> Session<'_, C> {
         let shrinks = match self.settings.method {
             Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
             Method::Nearest { .. } => false,
-            Method::Path => true,
+            Method::Path | Method::Bins => true,
         };
         // What shrinks is given more passes before it is given up.
         let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
@@ -196,6 +201,9 @@ impl<const C: usize> Session<'_, C> {
         source: &Source<'_, C>,
     ) -> Result<(), ReadError> {
         let number = run.passes;
+        if self.settings.method == Method::Bins {
+            return self.count(run, cells, schedule);
+        }
         let maps = self.maps(run, number, schedule, source)?;
         let samples = schedule.samples(number);
         let look = Look {
@@ -223,15 +231,34 @@ impl<const C: usize> Session<'_, C> {
             })
             .collect();
         let probed = self.probes(cells, number as u32, samples);
-        for ((cell, parts), probed) in run.cells.iter_mut().zip(found.chunks(blocks as usize)).zip(probed) {
+        for ((index, parts), probed) in found.chunks(blocks as usize).enumerate().zip(probed) {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
             let mut mean = light.over(samples as f64);
             mean.irradiance += probed;
-            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
+            let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
+            run.cells[index].push(&mean, light.photons, parts.iter().all(|part| part.dark));
         }
         run.passes += 1;
         run.samples += samples;
+        Ok(())
+    }
+
+    /// One pass of photons counted where they arrive.
+    fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
+        let plan = EmissionPlan::new(self.lamps, schedule.photons(run.passes))?;
+        let settings = &self.settings;
+        let job =
+            Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
+        let bins = Bins::new(self.world, cells);
+        let counted = count(self.world, self.lamps, &plan, &job, cells.len(), &bins)?;
+        for (index, cell) in run.cells.iter_mut().enumerate() {
+            let irradiance = counted.flux[index] * (1.0 / bins.measure[index]);
+            let light = Light { irradiance, ..Light::default() };
+            cell.push(&light, counted.photons[index] as f64, false);
+        }
+        run.book(plan.photons(), &counted.ledger);
+        run.passes += 1;
         Ok(())
     }
 
@@ -269,7 +296,7 @@ impl<const C: usize> Session<'_, C> {
                 trace_pass(self.world, self.lamps, &self.settings, self.settings.classes(), number as u32, count)?
             }
         };
-        run.book(&photons);
+        run.book(photons.emitted, &photons.ledger);
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)

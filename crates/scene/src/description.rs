@@ -318,6 +318,27 @@ pub enum Meter {
         /// Index into [`Scene::shapes`].
         shape: usize,
     },
+    /// Flux that arrives on the front side of a shape, one reading per cell of (u, v) (extension).
+    Fluxmeter {
+        /// Index into [`Scene::shapes`].
+        shape: usize,
+    },
+    /// Intensity of the light that leaves the scene, seen from infinity (extension). Cells in type C angles: columns along C
+    /// from local +x towards +y, rows along gamma from local -z to +z.
+    Intensitymeter {
+        /// A rotation from the goniometer's axes.
+        to_world: DMat3,
+    },
+}
+
+impl Meter {
+    /// The shape that it stands on, if any.
+    pub fn shape(&self) -> Option<usize> {
+        match self {
+            Meter::Irradiancemeter { shape } | Meter::Fluxmeter { shape } => Some(*shape),
+            Meter::Radiancemeter { .. } | Meter::Intensitymeter { .. } => None,
+        }
+    }
 }
 
 /// The cells of a sensor.

@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Channels;
 
-use crate::description::{Geometry, Meter, Receiver, Scene};
+use crate::description::{Geometry, Receiver, Scene};
 
 /// One thing that is modelled, or left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -90,9 +90,9 @@ fn indirect_reason(scene: &Scene) -> Option<String> {
     let &first = reflecting.first()?;
     // One flat face cannot light itself. If nothing else reflects or is metered, its light is never seen again.
     let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. });
-    let metered_elsewhere = scene.sensors.iter().any(|sensor| match sensor.receiver {
-        Receiver::Meter(Meter::Irradiancemeter { shape }) => shape != first,
-        _ => false,
+    let metered_elsewhere = scene.sensors.iter().any(|sensor| match &sensor.receiver {
+        Receiver::Meter(meter) => meter.shape().is_some_and(|shape| shape != first),
+        Receiver::Camera(_) => false,
     });
     let alone = reflecting.len() == 1 && flat && first_specular(scene).is_none() && !metered_elsewhere;
     (!alone).then(|| {

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::{
     accelerator::{Accelerator, whole},
-    description::{Bsdf, Meter, Receiver, Scene, Shape},
+    description::{Bsdf, Receiver, Scene, Shape},
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
     ray::Ray,
 };
@@ -41,7 +41,9 @@ impl World {
         let bounds: Vec<_> = primitives.iter().map(|p| p.surface.bounds()).collect();
         let mut metered = vec![false; scene.shapes.len()];
         for sensor in &scene.sensors {
-            if let Receiver::Meter(Meter::Irradiancemeter { shape }) = sensor.receiver {
+            if let Receiver::Meter(meter) = &sensor.receiver
+                && let Some(shape) = meter.shape()
+            {
                 metered[shape] = true;
             }
         }

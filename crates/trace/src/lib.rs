@@ -4,9 +4,11 @@
 //! diffuse surfaces, in one array whose order depends on the photons' numbers alone, and the [`Ledger`].
 #![forbid(unsafe_code)]
 
+mod counter;
 mod ledger;
 mod path;
 
+pub use counter::{Counted, Counter, count};
 pub use ledger::{Book, Ledger, SurfaceBook};
 pub use path::{Classes, Limits, TraceError};
 
@@ -14,6 +16,8 @@ use photonlab_photometry::Photon;
 use photonlab_sampling::{EmissionPlan, Lamps};
 use photonlab_scene::World;
 use rayon::prelude::*;
+
+use counter::NoCounter;
 
 /// Photons followed by one task; part of nothing that can be read from the result.
 const CHUNK: u64 = 2048;
@@ -27,6 +31,12 @@ pub struct Traced<const C: usize> {
     pub photons: Vec<Photon<C>>,
     /// Where all flux went.
     pub ledger: Ledger<C>,
+}
+
+impl<const C: usize> Traced<C> {
+    fn empty(world: &World) -> Self {
+        Self { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) }
+    }
 }
 
 /// What to trace.
@@ -49,22 +59,30 @@ pub fn trace<const C: usize>(
     plan: &EmissionPlan<C>,
     job: &Job,
 ) -> Result<Traced<C>, TraceError> {
-    let chunks: Vec<Result<Traced<C>, TraceError>> = (0..plan.photons().div_ceil(CHUNK))
-        .into_par_iter()
-        .map(|chunk| {
-            let mut part = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
-            for index in chunk * CHUNK..((chunk + 1) * CHUNK).min(plan.photons()) {
-                path::follow(world, lamps, plan, job, index, &mut part)?;
-            }
-            Ok(part)
-        })
-        .collect();
-    let mut whole = Traced { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) };
-    for part in chunks {
+    let parts = in_chunks(plan, |numbers| {
+        let mut part = Traced::empty(world);
+        for number in numbers {
+            path::follow(world, lamps, plan, job, number, &mut part, &mut NoCounter)?;
+        }
+        Ok(part)
+    });
+    let mut whole = Traced::empty(world);
+    for part in parts {
         let part = part?;
         whole.positions.extend(part.positions);
         whole.photons.extend(part.photons);
         whole.ledger.add(&part.ledger);
     }
     Ok(whole)
+}
+
+/// Works on all photons' numbers, a chunk to a task; the results stand in the order of the numbers.
+fn in_chunks<const C: usize, T: Send>(
+    plan: &EmissionPlan<C>,
+    work: impl Fn(std::ops::Range<u64>) -> T + Sync,
+) -> Vec<T> {
+    (0..plan.photons().div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|chunk| work(chunk * CHUNK..((chunk + 1) * CHUNK).min(plan.photons())))
+        .collect()
 }

@@ -6,7 +6,7 @@ use photonlab_sampling::{
 };
 use photonlab_scene::{Hit, Ray, World};
 
-use crate::{Job, SurfaceBook, Traced, ledger::Book};
+use crate::{Job, SurfaceBook, Traced, counter::Witness, ledger::Book};
 
 /// Which classes of photon are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,6 +97,7 @@ pub(crate) fn follow<const C: usize>(
     job: &Job,
     index: u64,
     out: &mut Traced<C>,
+    witness: &mut impl Witness<C>,
 ) -> Result<(), TraceError> {
     let mut stream = Stream::new(job.seed, Purpose::Photons, job.pass, index);
     let (lamp, flux) = plan.photon(index);
@@ -113,7 +114,7 @@ pub(crate) fn follow<const C: usize>(
         lossless_run: 0,
         world,
     };
-    while let Fate::GoesOn = walk.step(job, &mut stream, out) {
+    while let Fate::GoesOn = walk.step(job, &mut stream, out, witness) {
         if walk.lossless_run >= LOSSLESS {
             let shape = world.shape_of(walk.from.unwrap_or(0)).id.clone();
             return Err(TraceError::Lossless { shape });
@@ -124,16 +125,18 @@ pub(crate) fn follow<const C: usize>(
 
 impl<const C: usize> Walk<'_, C> {
     /// Follows one segment and what happens at its end.
-    fn step(&mut self, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+    fn step(&mut self, job: &Job, stream: &mut Stream, out: &mut Traced<C>, witness: &mut impl Witness<C>) -> Fate {
         if job.limits.max_segments.is_some_and(|max| self.segments >= max) {
             self.book(out).cut_off += self.flux;
             return Fate::Ended;
         }
         let Some(hit) = self.world.cast(&self.ray, self.from, f64::INFINITY) else {
             self.book(out).escaped += self.flux;
+            witness.left(self.ray.direction, self.flux);
             return Fate::Ended;
         };
         self.from = Some(hit.point.primitive);
+        witness.arrived(&hit, self.flux);
         let (mut interaction, opacity) = interaction(self.world, &hit);
         if matches!(interaction, Interaction::Matte(_)) || self.world.is_metered(hit.point.primitive) {
             self.store(&hit, self.segments + 1, job, out);

@@ -82,14 +82,16 @@ fn general(object: &mut Object, zenith: DVec3) -> Result<SkyLaw, SceneError> {
     Ok(SkyLaw::General { kind, sun })
 }
 
-/// The rotation that `to_world` states; an environment at infinity has no place and no size.
-fn rotation(object: &mut Object) -> Result<DMat3, SceneError> {
+/// The rotation that `to_world` states; what stands at infinity has no place and no size.
+pub(super) fn rotation(object: &mut Object) -> Result<DMat3, SceneError> {
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
     let scale = to_world.matrix3.x_axis.length();
     let axes = to_world.matrix3 * scale.recip();
     let error = axes.transpose() * axes - DMat3::IDENTITY;
     if error.to_cols_array().into_iter().any(|entry| entry.abs() > 1e-5) || axes.determinant() < 0.0 {
-        return Err(object.element.error("to_world of an environment is no rotation", "use rotate or lookat alone"));
+        return Err(object
+            .element
+            .error("to_world of what stands at infinity is no rotation", "use rotate or lookat alone"));
     }
     Ok(axes)
 }

@@ -70,8 +70,8 @@ const EMITTERS: Plugins = Plugins {
 };
 
 const SENSORS: Plugins = Plugins {
-    built: &["perspective", "radiancemeter", "irradiancemeter"],
-    later: &["thinlens", "distant", "fluxmeter", "intensitymeter"],
+    built: &["perspective", "radiancemeter", "irradiancemeter", "fluxmeter", "intensitymeter"],
+    later: &["thinlens", "distant"],
     foreign: &["batch", "orthographic"],
 };
 

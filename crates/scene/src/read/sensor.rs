@@ -6,6 +6,7 @@ use crate::{Film, Meter, Receiver, Sensor};
 
 use super::camera::camera;
 use super::element::Element;
+use super::environment::rotation;
 use super::error::SceneError;
 use super::film;
 use super::integrator::sampler;
@@ -46,8 +47,16 @@ pub(super) fn sensor<'e>(
         ("irradiancemeter", Position::OnShape(shape)) => {
             (Receiver::Meter(Meter::Irradiancemeter { shape }), film.unwrap_or(ONE_CELL))
         }
-        ("irradiancemeter", Position::Free) => {
-            return Err(element.error("an irradiancemeter outside a shape", "put it into the shape that it measures"));
+        ("fluxmeter", Position::OnShape(shape)) => {
+            (Receiver::Meter(Meter::Fluxmeter { shape }), film.unwrap_or(ONE_CELL))
+        }
+        ("intensitymeter", Position::Free) => {
+            let to_world = rotation(&mut object)?;
+            (Receiver::Meter(Meter::Intensitymeter { to_world }), film.unwrap_or(GONIOMETER))
+        }
+        (plugin @ ("irradiancemeter" | "fluxmeter"), Position::Free) => {
+            let what = format!("a meter `{plugin}` outside a shape");
+            return Err(element.error(what, "put it into the shape that it measures"));
         }
         (plugin, _) => {
             return Err(element.error(format!("a {plugin} inside a shape"), "put it beside the shape"));
@@ -60,6 +69,8 @@ pub(super) fn sensor<'e>(
 }
 
 const ONE_CELL: Film = Film { width: 1, height: 1 };
+/// Cells of a goniometer that does not say: 15 degrees in C, 10 in gamma.
+const GONIOMETER: Film = Film { width: 24, height: 18 };
 
 fn one_cell(object: &Object, film: Option<Film>) -> Result<Film, SceneError> {
     match film.unwrap_or(ONE_CELL) {

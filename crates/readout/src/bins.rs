@@ -1,0 +1,81 @@
+//! Which cells a photon counts in.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::{DMat3, DVec3};
+use photonlab_scene::{Film, Hit, World};
+use photonlab_trace::Counter;
+
+use crate::{Cell, Target};
+
+/// The cells of all receivers, ready for counting.
+pub(crate) struct Bins<'w> {
+    world: &'w World,
+    /// For each shape, the films of the meters on it and their first cells.
+    on_shapes: Vec<Vec<(Film, usize)>>,
+    /// Goniometers and their first cells.
+    far: Vec<(DMat3, Film, usize)>,
+    /// What flux is divided by in each cell: square metres, steradians, or one.
+    pub(crate) measure: Vec<f64>,
+}
+
+impl<'w> Bins<'w> {
+    /// From cells in the order of [`Cell::of_sensor`]. Cells that look along rays count nothing.
+    pub(crate) fn new(world: &'w World, cells: &[Cell]) -> Self {
+        let mut bins = Self {
+            world,
+            on_shapes: vec![Vec::new(); world.scene.shapes.len()],
+            far: Vec::new(),
+            measure: cells.iter().map(|cell| measure(world, cell)).collect(),
+        };
+        let mut first = 0;
+        for of_sensor in cells.chunk_by(|a, b| a.sensor == b.sensor) {
+            match &of_sensor[0].target {
+                Target::Patch { shape, film, .. } => bins.on_shapes[*shape].push((*film, first)),
+                Target::Leaving { to_world, film } => bins.far.push((to_world.transpose(), *film, first)),
+                Target::Pixel { .. } | Target::Along(_) => {}
+            }
+            first += of_sensor.len();
+        }
+        bins
+    }
+}
+
+impl Counter for Bins<'_> {
+    fn at_surface(&self, hit: &Hit, found: &mut dyn FnMut(usize)) {
+        let shape = self.world.primitives[hit.point.primitive as usize].shape as usize;
+        if hit.front && !self.on_shapes[shape].is_empty() {
+            let uv = self.world.uv(&hit.point);
+            for (film, first) in &self.on_shapes[shape] {
+                found(first + place(*film, uv.x, uv.y));
+            }
+        }
+    }
+
+    fn to_infinity(&self, direction: DVec3, found: &mut dyn FnMut(usize)) {
+        for (to_local, film, first) in &self.far {
+            let local = *to_local * direction;
+            let turn = local.y.atan2(local.x) / TAU;
+            let gamma = (-local.z).clamp(-1.0, 1.0).acos() / PI;
+            found(first + place(*film, turn - turn.floor(), gamma));
+        }
+    }
+}
+
+/// Number of the cell at (u, v) in [0, 1], row by row.
+fn place(film: Film, u: f64, v: f64) -> usize {
+    let along = |x: f64, count: u32| ((x * f64::from(count)) as usize).min(count as usize - 1);
+    along(v, film.height) * film.width as usize + along(u, film.width)
+}
+
+fn measure(world: &World, cell: &Cell) -> f64 {
+    match &cell.target {
+        Target::Patch { flux: true, .. } => 1.0,
+        Target::Patch { shape, film, flux: false } => world.cell_area(*shape, cell.cell[1], [film.width, film.height]),
+        Target::Leaving { film, .. } => {
+            let gamma = |row: u32| PI * f64::from(row) / f64::from(film.height);
+            TAU / f64::from(film.width) * (gamma(cell.cell[1]).cos() - gamma(cell.cell[1] + 1).cos())
+        }
+        Target::Pixel { .. } | Target::Along(_) => 1.0,
+    }
+}
