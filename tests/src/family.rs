@@ -46,6 +46,8 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cube, six meters", 6),
     ("cube, mean", 1),
     ("ball lens, transport", 5),
+    ("white furnace, eye", 27),
+    ("white furnace, photons", 9),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].
