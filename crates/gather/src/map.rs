@@ -1,6 +1,6 @@
 //! The photon map: photons in a tree, and the density estimates read from it.
 
-use photonlab_kdtree::{BuildError, KdTree, Neighbour, SplitRule};
+use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
 use photonlab_photometry::{Colour, Photon};
 
 use crate::{AreaModel, Bandwidth, Estimate, Tests};
@@ -29,7 +29,7 @@ pub struct GatherPoint {
 /// Memory that queries reuse.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    found: Vec<Neighbour>,
+    found: Neighbours,
 }
 
 impl<const C: usize> PhotonMap<C> {
@@ -102,7 +102,7 @@ impl<const C: usize> PhotonMap<C> {
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         let found = &mut scratch.found;
-        self.tree.nearest(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
+        self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
             return self.sum(found, max_radius * max_radius, max_radius, area);
@@ -114,10 +114,10 @@ impl<const C: usize> PhotonMap<C> {
         self.sum(found, radius_squared, radius_squared.sqrt(), area)
     }
 
-    fn sum(&self, found: &[Neighbour], radius_squared: f64, radius: f64, area: AreaModel) -> Estimate<C> {
+    fn sum(&self, found: &Neighbours, radius_squared: f64, radius: f64, area: AreaModel) -> Estimate<C> {
         let half = 0.5 * radius_squared;
         let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
-        for neighbour in found {
+        for neighbour in found.iter() {
             let flux = self.tree.payloads()[neighbour.index].flux();
             all += flux;
             if f64::from(neighbour.distance_squared) <= half {
@@ -139,11 +139,12 @@ impl<const C: usize> PhotonMap<C> {
             .step_by(step)
             .filter_map(|index| {
                 let at = GatherPoint {
-                    position: self.tree.points()[index],
+                    position: self.tree.point(index),
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                self.tree.nearest(at.position, k, f32::INFINITY, |p| counts(p, &at, &tests), &mut scratch.found);
-                (scratch.found.len() == k).then(|| scratch.found[k - 1].distance_squared.sqrt())
+                self.tree.nearest_accepted(at.position, k, f32::INFINITY, |p| counts(p, &at, &tests), &mut scratch.found);
+                let full = scratch.found.len() == k;
+                scratch.found.farthest_squared().filter(|_| full).map(f32::sqrt)
             })
             .collect();
         radii.sort_by(f32::total_cmp);
