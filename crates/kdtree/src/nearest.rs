@@ -71,7 +71,13 @@ impl<A: Accept, M: Meter> Walk<'_, A, M> {
         let pile: &mut [u64; WIDTH] = self.pending[height..].first_chunk_mut().expect("room for the deepest tree");
         let mut left = mask;
         while left != 0 {
-            let key = keys[left.trailing_zeros() as usize];
+            let lane = left.trailing_zeros() as usize;
+            let key = keys[lane];
+            if node.is_inner(lane) {
+                L::prefetch(&self.nodes[node.child(lane)..][..1]);
+            } else {
+                L::prefetch(&self.blocks[node.points(lane).start / BLOCK..][..1]);
+            }
             let farther = L::greater(&keys, mask, key).count_ones();
             pile[farther as usize & (WIDTH - 1)] = u64::from(key) << 32 | number as u64;
             left &= left - 1;
@@ -214,6 +220,24 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         let (nodes, blocks) = (&self.nodes[..], &self.blocks[..]);
         let (candidates, pending) = (&mut found.candidates, &mut found.pending[..]);
         dispatch(self.instructions, Walk { nodes, blocks, query, k, reach, accept, meter, candidates, pending });
+    }
+}
+
+impl<const N: usize> KdTree<[f32; N]> {
+    /// Sum of the payloads of points found in this tree, added in four chains and those in order.
+    ///
+    /// # Panics
+    ///
+    /// If `found` holds an index that this tree has not.
+    pub fn sum_of(&self, found: &Neighbours) -> [f32; N] {
+        let mut chains = [[0.0; N]; 4];
+        for four in found.indices().chunks(4) {
+            for (chain, &index) in chains.iter_mut().zip(four) {
+                let payload = &self.payload[index as usize];
+                (0..N).for_each(|channel| chain[channel] += payload[channel]);
+            }
+        }
+        std::array::from_fn(|channel| chains.iter().map(|chain| chain[channel]).sum())
     }
 }
 

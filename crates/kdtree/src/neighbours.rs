@@ -63,7 +63,12 @@ impl Neighbours {
         self.distances_squared().iter().map(|d| d.to_bits()).max().map(f32::from_bits)
     }
 
-    /// Takes out the farthest point, of equally far ones that of the highest tree index; the last one takes its place.
+    /// The farthest point, of equally far ones that of the highest tree index.
+    pub fn farthest(&self) -> Option<Neighbour> {
+        self.iter().max_by_key(|found| (found.distance_squared.to_bits(), found.index))
+    }
+
+    /// Takes out the [`farthest`](Self::farthest) point; the last one takes its place.
     pub fn pop(&mut self) -> Option<Neighbour> {
         let farthest = (0..self.len()).max_by_key(|&i| self.candidates.key(i))?;
         let (index, distance_squared) = self.candidates.swap_remove(farthest);

@@ -7,7 +7,7 @@ use crate::error::BuildError;
 pub const DEFAULT_LEAF_LIMIT: usize = 16;
 
 /// Where a node is cut. The answers of queries do not depend on it; their speed does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SplitRule {
     /// At the median point along the widest axis of the node's tight box (the first such axis on a tie).
     ///
@@ -15,6 +15,7 @@ pub enum SplitRule {
     /// made of whole blocks of 16 points, above 256 points of whole 256s, so that blocks and nodes are full; below,
     /// they differ by at most one point. Only a node whose points all coincide becomes a
     /// leaf above the limit.
+    #[default]
     Median,
     /// At the plane that minimises `f(x) = Ec + S_left * N_left + S_right * N_right`, eq. 2 of Zhdanov and
     /// Krimmel, "Physically correct models for calculating the illuminance formed by optical systems, with

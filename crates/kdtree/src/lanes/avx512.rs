@@ -96,6 +96,11 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
+    fn prefetch<T>(items: &[T]) {
+        Portable::prefetch(items);
+    }
+
+    #[inline(always)]
     fn add_rows<const N: usize>(sums: &mut [[f32; 16]; N], values: &[f32], mask: u16) {
         if N > 4 {
             return Portable::add_rows(sums, values, mask);

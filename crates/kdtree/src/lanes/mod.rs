@@ -49,6 +49,9 @@ pub(crate) trait Lanes {
     /// Moves the masked values to the front of `kept`, overwriting what follows.
     fn compress_indices(indices: &[u32; 16], mask: u16, kept: &mut [u32; 16]);
 
+    /// Asks for the cache lines of `items`, which will be read soon.
+    fn prefetch<T>(items: &[T]);
+
     /// Adds row i of `values` to row i of `sums` where bit i is set; both hold sixteen rows of `N`, one after another.
     fn add_rows<const N: usize>(sums: &mut [[f32; 16]; N], values: &[f32], mask: u16);
 }

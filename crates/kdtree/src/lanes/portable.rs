@@ -94,6 +94,19 @@ impl Lanes for Portable {
     }
 
     #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", allow(unsafe_code))] // A hint, for random queries wait for memory.
+    fn prefetch<T>(items: &[T]) {
+        #[cfg(target_arch = "x86_64")]
+        for line in (0..size_of_val(items)).step_by(64) {
+            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+            // SAFETY: every x86-64 processor has the instruction, and a hint touches no memory.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(items.as_ptr().cast::<i8>().wrapping_add(line)) };
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        let _ = items;
+    }
+
+    #[inline(always)]
     fn add_rows<const N: usize>(sums: &mut [[f32; 16]; N], values: &[f32], mut mask: u16) {
         let sums = sums.as_flattened_mut();
         while mask != 0 {
