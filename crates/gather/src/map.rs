@@ -1,6 +1,6 @@
 //! The photon map: photons in a tree, and the density estimates read from it.
 
-use photonlab_kdtree::{BuildError, KdTree, Neighbour, SplitRule};
+use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
 use photonlab_photometry::{Colour, Photon};
 
 use crate::{AreaModel, Bandwidth, Estimate, Tests};
@@ -29,7 +29,7 @@ pub struct GatherPoint {
 /// Memory that queries reuse.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
-    found: Vec<Neighbour>,
+    found: Neighbours,
 }
 
 impl<const C: usize> PhotonMap<C> {
@@ -128,7 +128,7 @@ impl<const C: usize> PhotonMap<C> {
             photon.flux() * weigh(cosine(photon, at))
         };
         let found = &mut scratch.found;
-        self.tree.nearest(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
+        self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
             return sum(found, max_radius * max_radius, max_radius, area, flux);
@@ -149,11 +149,18 @@ impl<const C: usize> PhotonMap<C> {
             .step_by(step)
             .filter_map(|index| {
                 let at = GatherPoint {
-                    position: self.tree.points()[index],
+                    position: self.tree.point(index),
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                self.tree.nearest(at.position, k, f32::INFINITY, |p| counts(p, &at, &tests), &mut scratch.found);
-                (scratch.found.len() == k).then(|| scratch.found[k - 1].distance_squared.sqrt())
+                self.tree.nearest_accepted(
+                    at.position,
+                    k,
+                    f32::INFINITY,
+                    |p| counts(p, &at, &tests),
+                    &mut scratch.found,
+                );
+                let full = scratch.found.len() == k;
+                scratch.found.farthest_squared().filter(|_| full).map(f32::sqrt)
             })
             .collect();
         radii.sort_by(f32::total_cmp);
@@ -163,7 +170,7 @@ impl<const C: usize> PhotonMap<C> {
 
 /// Flux of photons, their indices and squared distances given, over the area of a radius.
 fn sum<const C: usize>(
-    found: &[Neighbour],
+    found: &Neighbours,
     radius_squared: f64,
     radius: f64,
     area: AreaModel,
@@ -171,7 +178,7 @@ fn sum<const C: usize>(
 ) -> Estimate<C> {
     let half = 0.5 * radius_squared;
     let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
-    for neighbour in found {
+    for neighbour in found.iter() {
         let flux = flux(neighbour.index);
         all += flux;
         if f64::from(neighbour.distance_squared) <= half {

@@ -1,26 +1,124 @@
 //! All points in a closed ball.
 
+use crate::block::{BLOCK, Block, lanes_in};
+use crate::lanes::{Lanes, Task, dispatch};
+use crate::node::Node;
 use crate::tree::KdTree;
 use crate::visits::{Meter, Unmetered, Visits};
-use crate::walk::{Collector, walk};
 
-/// Passes on every point within a fixed reach.
-struct Ball<V> {
-    radius_squared: f32,
-    visit: V,
+/// Is shown the blocks that have points in the ball.
+trait Visitor {
+    /// Point `first + i` is in the ball where bit i of `mask` is set.
+    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, distances: L::Floats);
 }
 
-impl<V: FnMut(usize, f32)> Collector for Ball<V> {
-    const NEAR_FIRST: bool = false;
+/// Passes blocks on to a closure.
+struct Each<V>(V);
 
-    #[inline]
-    fn reach(&self) -> f32 {
-        self.radius_squared
+impl<V: FnMut(usize, u16, &[f32; BLOCK])> Visitor for Each<V> {
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, distances: L::Floats) {
+        (self.0)(first, mask, &L::store(distances));
+    }
+}
+
+/// Adds the payloads, in sixteen lanes.
+struct Sum<'a, const N: usize> {
+    payload: &'a [[f32; N]],
+    sums: [[f32; BLOCK]; N],
+}
+
+impl<const N: usize> Visitor for Sum<'_, N> {
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, _: L::Floats) {
+        match self.payload[first..].first_chunk::<BLOCK>() {
+            Some(rows) => L::add_rows(&mut self.sums, rows.as_flattened(), mask),
+            None => {
+                let mut rows = [[0.0; N]; BLOCK];
+                rows[..self.payload.len() - first].copy_from_slice(&self.payload[first..]);
+                L::add_rows(&mut self.sums, rows.as_flattened(), mask);
+            }
+        }
+    }
+}
+
+impl<const N: usize> Sum<'_, N> {
+    /// The lanes added in pairs, and the pairs likewise.
+    fn total(&self) -> [f32; N] {
+        let sums = self.sums.as_flattened();
+        std::array::from_fn(|channel| {
+            let mut lanes: [f32; BLOCK] = std::array::from_fn(|lane| sums[lane * N + channel]);
+            for half in [8, 4, 2, 1] {
+                for lane in 0..half {
+                    lanes[lane] += lanes[lane + half];
+                }
+            }
+            lanes[0]
+        })
+    }
+}
+
+/// A walk in tree order.
+struct Walk<'a, V, M> {
+    nodes: &'a [Node],
+    blocks: &'a [Block],
+    query: [f32; 3],
+    reach: f32,
+    visitor: &'a mut V,
+    meter: &'a mut M,
+}
+
+impl<V: Visitor, M: Meter> Walk<'_, V, M> {
+    #[inline(always)]
+    fn open<L: Lanes>(&mut self, node: usize) -> u16 {
+        self.meter.inner();
+        let node = &self.nodes[node];
+        L::within(L::to_boxes(node, &self.query), self.reach) & node.live
     }
 
-    #[inline]
-    fn offer(&mut self, index: usize, distance_squared: f32) {
-        (self.visit)(index, distance_squared);
+    #[inline(always)]
+    fn leaf<L: Lanes>(&mut self, points: std::ops::Range<usize>) {
+        self.meter.leaf(points.len());
+        for block in points.start / BLOCK..points.end.div_ceil(BLOCK) {
+            let distances = L::to_points(&self.blocks[block], &self.query);
+            let mask = L::within(distances, self.reach) & lanes_in(&points, block);
+            if mask != 0 {
+                self.visitor.visit::<L>(block * BLOCK, mask, distances);
+            }
+        }
+    }
+}
+
+impl<V: Visitor, M: Meter> Task for Walk<'_, V, M> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self) {
+        let mut pending = [(0u32, 0u16); crate::tree::MAX_DEPTH];
+        let mut depth = 0;
+        let (mut node, mut mask) = (0, self.open::<L>(0));
+        loop {
+            if mask == 0 {
+                if depth == 0 {
+                    return;
+                }
+                depth -= 1;
+                (node, mask) = (pending[depth].0 as usize, pending[depth].1);
+                continue;
+            }
+            let lane = mask.trailing_zeros() as usize;
+            mask &= mask - 1;
+            if self.nodes[node].is_inner(lane) {
+                if mask != 0 {
+                    pending[depth] = (node as u32, mask);
+                    depth += 1;
+                }
+                node = self.nodes[node].child(lane);
+                mask = self.open::<L>(node);
+            } else {
+                self.leaf::<L>(self.nodes[node].points(lane));
+            }
+        }
     }
 }
 
@@ -32,21 +130,53 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     /// is inside, an infinite radius takes every point, radius zero takes the points at computed distance zero,
     /// and a radius whose square overflows or vanishes acts as infinity or zero. A negative or NaN radius, or a
     /// query with a NaN coordinate, takes nothing; an infinite coordinate is infinitely far from every point. Does not allocate.
-    pub fn within(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, f32)) {
-        self.within_metered(query, radius, visit, &mut Unmetered);
+    pub fn within(&self, query: [f32; 3], radius: f32, mut visit: impl FnMut(usize, f32)) {
+        self.within_blocks(query, radius, |first, mask, distances| each(first, mask, distances, &mut visit));
     }
 
     /// [`within`](Self::within), telling what the walk cost.
-    pub fn within_counted(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, f32)) -> Visits {
+    pub fn within_counted(&self, query: [f32; 3], radius: f32, mut visit: impl FnMut(usize, f32)) -> Visits {
         let mut visits = Visits::default();
-        self.within_metered(query, radius, visit, &mut visits);
+        let mut each = Each(|first, mask, distances: &[f32; BLOCK]| each(first, mask, distances, &mut visit));
+        self.walk_ball(query, radius, &mut each, &mut visits);
         visits
     }
 
-    fn within_metered(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, f32), meter: &mut impl Meter) {
-        if radius >= 0.0 {
-            let mut ball = Ball { radius_squared: radius * radius, visit };
-            walk(&self.nodes, &self.points, query, &mut ball, meter);
+    /// [`within`](Self::within) by blocks of sixteen: `visit(first, mask, squared distances)` for every block with
+    /// points in the ball, by rising `first`.
+    ///
+    /// The point of tree index `first + i` is in the ball where bit i of the mask is set; the distances of other
+    /// lanes mean nothing. `visit` is compiled for the vector instructions of the tree. A block can be shown more
+    /// than once where leaves share it, with other bits each time.
+    pub fn within_blocks(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, u16, &[f32; BLOCK])) {
+        self.walk_ball(query, radius, &mut Each(visit), &mut Unmetered);
+    }
+
+    fn walk_ball<V: Visitor>(&self, query: [f32; 3], radius: f32, visitor: &mut V, meter: &mut impl Meter) {
+        if radius >= 0.0 && !self.is_empty() && !query.iter().any(|c| c.is_nan()) {
+            let (nodes, blocks, reach) = (&self.nodes[..], &self.blocks[..], radius * radius);
+            dispatch(self.instructions, Walk { nodes, blocks, query, reach, visitor, meter });
         }
+    }
+}
+
+impl<const N: usize> KdTree<[f32; N]> {
+    /// Sum of the payloads in the ball of [`within`](Self::within); zero where that takes nothing.
+    ///
+    /// Payloads are added in sixteen lanes, lane i those of tree index i modulo 16 by rising index, and the lanes
+    /// at the end in pairs: the same bits whatever the instructions.
+    pub fn sum_within(&self, query: [f32; 3], radius: f32) -> [f32; N] {
+        let mut sum = Sum { payload: &self.payload, sums: [[0.0; BLOCK]; N] };
+        self.walk_ball(query, radius, &mut sum, &mut Unmetered);
+        sum.total()
+    }
+}
+
+#[inline(always)]
+fn each(first: usize, mut mask: u16, distances: &[f32; BLOCK], visit: &mut impl FnMut(usize, f32)) {
+    while mask != 0 {
+        let lane = mask.trailing_zeros() as usize;
+        visit(first + lane, distances[lane]);
+        mask &= mask - 1;
     }
 }

@@ -50,7 +50,9 @@ impl Bounds {
     ///
     /// The bound is exact in floating point, not just nearly so: a gap on one axis is at most the difference to
     /// a point of the box, and rounding, squaring and adding in the same order all keep `<=`.
-    #[inline]
+    ///
+    /// This is the formula's specification; queries compute it for sixteen boxes at once.
+    #[cfg(test)]
     pub(crate) fn distance_squared(&self, query: [f32; 3]) -> f32 {
         let nearest = std::array::from_fn(|axis| query[axis].max(self.lo[axis]).min(self.hi[axis]));
         crate::distance_squared(query, nearest)

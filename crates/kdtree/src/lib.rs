@@ -1,14 +1,19 @@
 //! Nearest points and points in a ball; knows nothing about light.
 //!
 //! A [`KdTree`] takes points and one payload for each, and answers two questions: which points lie in a closed
-//! ball ([`KdTree::within`]) and which are the k nearest that the caller accepts ([`KdTree::nearest`]). Planes
-//! are placed by a [`SplitRule`]: the median, or the surface-area cost of the paper's eq. 2. Whatever the rule,
-//! every answer equals that of the obvious loop over all points, bit for bit, ties included: the `f32` value
-//! that [`distance_squared`] computes decides, rounding, overflow and underflow and all. The tree depends on the
-//! points and the rule alone, never on the number of threads that built it.
+//! ball ([`KdTree::within`]) and which are the k nearest, of all ([`KdTree::nearest`]) or of those that the caller
+//! accepts ([`KdTree::nearest_accepted`]). Planes are placed by a [`SplitRule`]. Whatever the rule and the
+//! [`Instructions`], every answer equals that of the obvious loop over the points in tree order, bit for bit: the
+//! `f32` value that [`distance_squared`] computes decides, rounding, overflow and underflow and all, and of points
+//! equally far the first in tree order is nearer. The tree depends on the points and the rule alone, never on the
+//! number of threads that built it.
+//!
+//! Points lie in blocks of sixteen, axis by axis, and nodes hold the tight boxes of up to sixteen children, so
+//! that one pass of vector instructions tests a block or a node. The k nearest are appended and selected, without
+//! a heap. The tree adds about a seventh to the bytes of 16-byte photons, points and payloads.
 //!
 //! ```
-//! use photonlab_kdtree::{KdTree, SplitRule};
+//! use photonlab_kdtree::{KdTree, Neighbours, SplitRule};
 //!
 //! let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 3.0, 0.0]];
 //! let tree = KdTree::build(points, vec!['a', 'b', 'c'], SplitRule::Median)?;
@@ -17,22 +22,25 @@
 //! tree.within([0.0; 3], 1.0, |index, _| near.push(tree.payloads()[index]));
 //! assert_eq!(near, "ab"); // the ball is closed: 'b' lies on its surface
 //!
-//! let mut found = Vec::new();
-//! tree.nearest([0.0; 3], 2, f32::INFINITY, |&name| name != 'a', &mut found);
-//! assert_eq!(tree.original_index(found[1].index), 2);
-//! assert_eq!(found[1].distance_squared, 9.0);
+//! let mut found = Neighbours::default();
+//! tree.nearest_accepted([0.0; 3], 2, f32::INFINITY, |&name| name != 'a', &mut found);
+//! let farthest = found.pop().unwrap();
+//! assert_eq!((tree.payloads()[farthest.index], farthest.distance_squared), ('c', 9.0));
 //! # Ok::<(), photonlab_kdtree::BuildError>(())
 //! ```
 
-#![forbid(unsafe_code)]
-
 mod ball;
+mod batch;
+mod block;
 mod bounds;
 mod branch;
+mod candidates;
 mod distance;
 mod error;
+mod lanes;
 mod median;
 mod nearest;
+mod neighbours;
 mod node;
 mod rule;
 mod shape;
@@ -40,11 +48,11 @@ mod surface_area;
 mod sweep;
 mod tree;
 mod visits;
-mod walk;
 
 pub use distance::distance_squared;
 pub use error::BuildError;
-pub use nearest::Neighbour;
+pub use lanes::Instructions;
+pub use neighbours::{Neighbour, Neighbours};
 pub use rule::{DEFAULT_LEAF_LIMIT, EmptyCost, SplitRule};
 pub use shape::TreeShape;
 pub use tree::KdTree;

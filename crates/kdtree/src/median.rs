@@ -1,7 +1,9 @@
 //! Building by the median rule.
 
+use crate::block::BLOCK;
 use crate::bounds::Bounds;
 use crate::branch::Branch;
+use crate::node::WIDTH;
 
 /// Below this many points a subtree is built by one thread.
 const SERIAL: usize = 1 << 13;
@@ -29,7 +31,7 @@ fn grow(items: &mut [Item], leaf_limit: usize) -> Branch {
     };
 
     // A total order makes the two halves, as sets, a function of the points alone.
-    let half = items.len() / 2;
+    let half = (items.len() / 2).next_multiple_of(unit(items.len(), leaf_limit));
     items.select_nth_unstable_by(half, |a, b| a.point[axis].total_cmp(&b.point[axis]).then(a.index.cmp(&b.index)));
 
     let serial = items.len() < SERIAL;
@@ -40,6 +42,15 @@ fn grow(items: &mut [Item], leaf_limit: usize) -> Branch {
         rayon::join(|| grow(low, leaf_limit), || grow(high, leaf_limit))
     };
     Branch::inner(bounds, left, right)
+}
+
+/// Halves are even but for whole blocks, and for whole nodes of blocks where there are several: so that these are full.
+fn unit(len: usize, leaf_limit: usize) -> usize {
+    match len {
+        _ if leaf_limit < BLOCK => 1,
+        len if len > WIDTH * BLOCK => WIDTH * BLOCK,
+        _ => BLOCK,
+    }
 }
 
 /// Within a leaf, points keep the order in which they were given.
@@ -60,16 +71,16 @@ mod tests {
         let (root, order) = build(&points, 1);
         // The far half holds the lone point; halves of equal points are not cut further.
         assert_eq!(order.last(), Some(&5));
-        assert_eq!(root.flatten().len(), 2 * 6 + 1);
+        assert_eq!(root.leaves(), 7);
     }
 
     #[test]
     fn equal_coordinates_part_by_original_index() {
         // Every tenth point lies apart; the cut falls among the equal others.
         let points: Vec<[f32; 3]> = (0..5000).map(|i| [f32::from(u8::from(i % 10 == 0)), 0.0, 0.0]).collect();
-        let (_, order) = build(&points, 2500);
+        let (_, order) = build(&points, 2560);
         let mut equal = (0..5000).filter(|i| i % 10 != 0);
-        let low: Vec<u32> = equal.by_ref().take(2500).collect();
-        assert_eq!(order[..2500], low);
+        let low: Vec<u32> = equal.by_ref().take(2560).collect();
+        assert_eq!(order[..2560], low);
     }
 }

@@ -7,13 +7,15 @@ use crate::error::BuildError;
 pub const DEFAULT_LEAF_LIMIT: usize = 16;
 
 /// Where a node is cut. The answers of queries do not depend on it; their speed does.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum SplitRule {
     /// At the median point along the widest axis of the node's tight box (the first such axis on a tie).
     ///
-    /// Points with equal coordinates are ordered by original index, so the halves differ by at most one point
-    /// and the depth is `log2(n / leaf limit)` rounded up. Only a node whose points all coincide becomes a
+    /// Points with equal coordinates are ordered by original index. At a leaf limit of 16 or more the halves are
+    /// made of whole blocks of 16 points, above 256 points of whole 256s, so that blocks and nodes are full; below,
+    /// they differ by at most one point. Only a node whose points all coincide becomes a
     /// leaf above the limit.
+    #[default]
     Median,
     /// At the plane that minimises `f(x) = Ec + S_left * N_left + S_right * N_right`, eq. 2 of Zhdanov and
     /// Krimmel, "Physically correct models for calculating the illuminance formed by optical systems, with

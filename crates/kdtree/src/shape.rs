@@ -1,6 +1,6 @@
 //! How a tree turned out.
 
-use crate::node::{Content, Node};
+use crate::node::Node;
 use crate::tree::KdTree;
 
 /// How a tree turned out: the numbers that memory and build experiments report.
@@ -16,38 +16,34 @@ pub struct TreeShape {
     pub largest_leaf: usize,
     /// Bytes held in all: points, payloads, and `overhead_bytes`.
     pub bytes: usize,
-    /// Bytes that the tree adds to the points and payloads themselves: nodes and original indices.
+    /// Bytes that the tree adds to the points and payloads themselves: nodes, and the padding of the last block.
     pub overhead_bytes: usize,
 }
 
 impl<P: Copy + Send + Sync> KdTree<P> {
     /// Counts nodes, leaves and bytes in one pass over the nodes.
     pub fn shape(&self) -> TreeShape {
-        let overhead_bytes = size_of_val(&self.nodes[..]) + size_of_val(&self.original[..]);
-        let mut shape = TreeShape {
-            nodes: self.nodes.len(),
-            bytes: overhead_bytes + size_of_val(&self.points[..]) + size_of_val(&self.payload[..]),
-            overhead_bytes,
-            ..TreeShape::default()
-        };
+        let bytes = size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..]) + size_of_val(&self.payload[..]);
+        let overhead_bytes = bytes - self.len() * (size_of::<[f32; 3]>() + size_of::<P>());
+        let mut shape = TreeShape { bytes, overhead_bytes, ..TreeShape::default() };
         if !self.nodes.is_empty() {
+            shape.nodes = 1;
             measure(&self.nodes, 0, 1, &mut shape);
         }
         shape
     }
 }
 
-/// Recursion is as deep as the tree, which both rules bound by 78.
-fn measure(nodes: &[Node], node: usize, depth: usize, shape: &mut TreeShape) {
-    match nodes[node].content() {
-        Content::Leaf(range) => {
+fn measure(nodes: &[Node], number: usize, depth: usize, shape: &mut TreeShape) {
+    let node = &nodes[number];
+    shape.nodes += node.live.count_ones() as usize;
+    for lane in 0..node.live.count_ones() as usize {
+        if node.is_inner(lane) {
+            measure(nodes, node.child(lane), depth + 1, shape);
+        } else {
             shape.leaves += 1;
-            shape.depth = shape.depth.max(depth);
-            shape.largest_leaf = shape.largest_leaf.max(range.len());
-        }
-        Content::Inner { right } => {
-            measure(nodes, node + 1, depth + 1, shape);
-            measure(nodes, right, depth + 1, shape);
+            shape.depth = shape.depth.max(depth + 1);
+            shape.largest_leaf = shape.largest_leaf.max(node.points(lane).len());
         }
     }
 }
@@ -63,12 +59,12 @@ mod tests {
         let shape = |n| KdTree::build(line(n), vec![0u8; n.into()], SplitRule::Median).unwrap().shape();
         assert_eq!(shape(0), TreeShape::default());
         let expected = TreeShape {
-            nodes: 7,
+            nodes: 5,
             leaves: 4,
-            depth: 3,
+            depth: 2,
             largest_leaf: 16,
-            bytes: 7 * 32 + 64 * (4 + 12 + 1),
-            overhead_bytes: 7 * 32 + 64 * 4,
+            bytes: 512 + 64 * (12 + 1),
+            overhead_bytes: 512,
         };
         assert_eq!(shape(64), expected);
     }

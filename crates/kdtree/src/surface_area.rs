@@ -149,7 +149,7 @@ mod tests {
     use crate::{KdTree, SplitRule};
 
     fn leaves(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> usize {
-        build(points, empty_cost, leaf_limit).0.flatten().len().div_ceil(2)
+        build(points, empty_cost, leaf_limit).0.leaves()
     }
 
     #[test]
@@ -180,9 +180,11 @@ mod tests {
         assert_eq!([1, 2, 3, 1 << 31].map(depth_limit), [16, 18, 20, 78]);
         // Cubes that halve: by eq. 2 it is cheapest to take off the few outermost points.
         let points: Vec<[f32; 3]> = (0..250).map(|i| [2f32.powi(i - 125); 3]).collect();
+        let root = build(&points, EmptyCost::NodeAreas(0.0), 1).0;
+        assert_eq!(root.cuts(), depth_limit(250));
+        assert!(depth_limit(crate::tree::MAX_POINTS) < crate::tree::MAX_DEPTH);
         let rule = SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(0.0) };
         let tree = KdTree::build_with_leaf_limit(points, vec![(); 250], rule, 1).unwrap();
-        assert_eq!(tree.shape().depth, depth_limit(250) + 1);
         assert!(tree.shape().largest_leaf > 50, "{:?}", tree.shape());
     }
 

@@ -2,21 +2,26 @@
 
 use rayon::prelude::*;
 
+use crate::block::{BLOCK, Block};
 use crate::error::BuildError;
+use crate::lanes::Instructions;
 use crate::node::Node;
 use crate::rule::{DEFAULT_LEAF_LIMIT, SplitRule};
 use crate::{median, surface_area};
 
-/// So that indices of points and of nodes (fewer than two a point) fit 32 bits.
+/// More than the cuts above any leaf: 78 at most (the depth limit of 2^31 points).
+pub(crate) const MAX_DEPTH: usize = 80;
+
+/// So that indices of points and of nodes (fewer than one a point) fit 32 bits.
 pub(crate) const MAX_POINTS: usize = 1 << 31;
 
 /// Points with a payload each, arranged for queries; immutable.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KdTree<P> {
     pub(crate) nodes: Vec<Node>,
-    pub(crate) points: Vec<[f32; 3]>,
+    pub(crate) blocks: Vec<Block>,
     pub(crate) payload: Vec<P>,
-    pub(crate) original: Vec<u32>,
+    pub(crate) instructions: Instructions,
 }
 
 impl<P: Copy + Send + Sync> KdTree<P> {
@@ -40,49 +45,52 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         check_counts(points.len(), payload.len())?;
         check_finite(&points)?;
         rule.check()?;
+        let instructions = Instructions::widest();
         if points.is_empty() {
-            return Ok(Self { nodes: vec![], points, payload, original: vec![] });
+            return Ok(Self { nodes: vec![], blocks: vec![], payload, instructions });
         }
         let leaf_limit = leaf_limit.max(1);
-        let (root, original) = match rule {
+        let (root, order) = match rule {
             SplitRule::Median => median::build(&points, leaf_limit),
             SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit),
         };
-        Ok(Self {
-            nodes: root.flatten(),
-            points: original.par_iter().map(|&i| points[i as usize]).collect(),
-            payload: original.par_iter().map(|&i| payload[i as usize]).collect(),
-            original,
-        })
+        let block = |run: &[u32]| Block::of(run.iter().map(|&i| points[i as usize]));
+        let blocks = order.par_chunks(BLOCK).with_min_len(256).map(block).collect();
+        let payload = order.par_iter().with_min_len(4096).map(|&i| payload[i as usize]).collect();
+        Ok(Self { nodes: root.into_nodes(), blocks, payload, instructions })
+    }
+
+    /// The same tree, queried with other instructions; unchanged where this processor lacks them.
+    pub fn with_instructions(mut self, instructions: Instructions) -> Self {
+        if instructions.is_available() {
+            self.instructions = instructions;
+        }
+        self
     }
 
     /// Number of points.
     pub fn len(&self) -> usize {
-        self.points.len()
+        self.payload.len()
     }
 
     /// Whether there are no points.
     pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
+        self.payload.is_empty()
     }
 
-    /// The points in tree order, leaf after leaf; within a leaf in the order given to `build`.
-    pub fn points(&self) -> &[[f32; 3]] {
-        &self.points
-    }
-
-    /// The payloads in tree order.
-    pub fn payloads(&self) -> &[P] {
-        &self.payload
-    }
-
-    /// Where the point at `i` in tree order stood in the order given to `build`.
+    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in the order given to `build`.
     ///
     /// # Panics
     ///
     /// If `i` is not below [`len`](Self::len).
-    pub fn original_index(&self, i: usize) -> usize {
-        self.original[i] as usize
+    pub fn point(&self, i: usize) -> [f32; 3] {
+        assert!(i < self.len(), "index {i} of {} points", self.len());
+        self.blocks[i / BLOCK].point(i % BLOCK)
+    }
+
+    /// The payloads in tree order. Where a point stood in the order given to `build` is for a payload to say.
+    pub fn payloads(&self) -> &[P] {
+        &self.payload
     }
 }
 

@@ -3,8 +3,7 @@
 /// Nodes opened and points tested by one query.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
-    /// Nodes opened, leaves included. A node whose box was tested and found out of reach is not counted; the
-    /// boxes tested are one more than twice the inner nodes opened.
+    /// Nodes opened, leaves included. A node whose box was tested and found out of reach is not counted.
     pub nodes: usize,
     /// Leaves among the nodes opened.
     pub leaves: usize,

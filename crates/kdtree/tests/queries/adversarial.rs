@@ -1,7 +1,7 @@
 //! Point sets made to break trees, against the obvious loop.
 
 use crate::obvious::{RULES, assert_answers, assert_is_a_permutation, build};
-use photonlab_kdtree::{EmptyCost, SplitRule};
+use photonlab_kdtree::{EmptyCost, Neighbours, SplitRule};
 
 /// Every rule and several leaf limits, radii and counts, at the given queries.
 fn check(points: &[[f32; 3]], queries: &[[f32; 3]], radii: &[f32]) {
@@ -112,10 +112,10 @@ fn nan_finds_nothing() {
         for (query, radius) in
             [([f32::NAN, 0.0, 0.0], f32::INFINITY), ([0.0, 0.0, f32::NAN], 1.0), ([0.0; 3], f32::NAN)]
         {
-            let mut found = vec![];
+            let mut found = Neighbours::default();
             let visits = tree.within_counted(query, radius, |_, _| panic!("found a point"));
             assert_eq!(visits, photonlab_kdtree::Visits::default());
-            tree.nearest(query, 3, radius, |_| panic!("asked about a point"), &mut found);
+            tree.nearest_accepted(query, 3, radius, |_| panic!("asked about a point"), &mut found);
             assert!(found.is_empty());
         }
     }
@@ -125,12 +125,12 @@ fn nan_finds_nothing() {
 fn nothing_accepted_is_nothing_found() {
     let tree = build(&lattice(4, 1.0), SplitRule::Median, 4);
     let mut asked = vec![];
-    let mut found = vec![];
+    let mut found = Neighbours::default();
     let refuse = |&i: &usize| {
         asked.push(i);
         false
     };
-    tree.nearest([0.0; 3], 3, f32::INFINITY, refuse, &mut found);
+    tree.nearest_accepted([0.0; 3], 3, f32::INFINITY, refuse, &mut found);
     assert!(found.is_empty());
     asked.sort_unstable();
     assert_eq!(asked, (0..64).collect::<Vec<_>>(), "each point is asked about once");

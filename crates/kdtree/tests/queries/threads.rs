@@ -1,7 +1,7 @@
 //! A tree depends on its points and rule, not on who built it; and queries look at few of its points.
 
 use crate::obvious::{RULES, build};
-use photonlab_kdtree::KdTree;
+use photonlab_kdtree::{KdTree, Neighbours};
 
 /// Points of a sheet and of a volume in turn, some of them repeated, from a small multiplicative generator.
 fn points(count: usize) -> Vec<[f32; 3]> {
@@ -33,7 +33,7 @@ fn queries_look_at_few_points() {
     let points = points(60_000);
     for rule in &RULES[..4] {
         let tree = build(&points, *rule, 16);
-        let mut found = vec![];
+        let mut found = Neighbours::default();
         let visits = tree.nearest_counted([0.5, 0.5, 0.0], 100, f32::INFINITY, |_| true, &mut found);
         assert!(visits.points < 2_500 && visits.nodes < 1_000, "{visits:?}, {rule:?}");
         assert!(visits.leaves <= visits.nodes);
