@@ -20,11 +20,13 @@
 #![forbid(unsafe_code)]
 
 pub mod ball_lens;
+pub mod catalogue;
 pub mod cube;
 pub mod edge_laws;
 pub mod fixed_radius_law;
 pub mod furnace;
 pub mod integrating_sphere;
+pub mod lamps;
 mod mitsuba;
 pub mod nearest_law;
 mod out_of_range;
@@ -33,5 +35,6 @@ mod quadrature;
 mod random;
 pub mod rendering_equation;
 pub mod square_lamp;
+mod vector;
 
 pub use out_of_range::OutOfRange;
