@@ -21,8 +21,10 @@
 
 pub mod ball_lens;
 pub mod catalogue;
+pub mod closed_room;
 pub mod cube;
 pub mod edge_laws;
+pub mod emitting_cube;
 pub mod fixed_radius_law;
 pub mod furnace;
 pub mod integrating_sphere;

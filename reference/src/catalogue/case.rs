@@ -71,10 +71,10 @@ impl Draft {
         self.depth = Some(segments);
     }
 
-    /// Notes what the sensor of this id must read in one channel.
-    pub(crate) fn expect(&mut self, sensor: &str, reads: Reads, value: f64, uncertainty: f64) {
-        let sensor = sensor.to_string();
-        self.expected.push(Expected { sensor, reads, value: vec![value], uncertainty });
+    /// Notes what the sensor of this id must read in each channel.
+    pub(crate) fn expect(&mut self, sensor: &str, reads: Reads, value: &[f64], uncertainty: f64) {
+        let (sensor, value) = (sensor.to_string(), value.to_vec());
+        self.expected.push(Expected { sensor, reads, value, uncertainty });
     }
 
     /// A black flat receiver of this shape (`rectangle` or `disk`) with a meter on its front.
@@ -82,7 +82,15 @@ impl Draft {
         let id = format!("meter-{}", self.expected.len());
         let on_it = mitsuba::diffuse(&[0.0]) + &meter(reads, &id);
         self.body += &mitsuba::flat(shape, &format!("receiver-{}", self.expected.len()), place, &on_it);
-        self.expect(&id, reads, value, uncertainty);
+        self.expect(&id, reads, &[value], uncertainty);
+    }
+
+    /// A flat shape with this coating or lamp on it, and a meter on its front.
+    pub(crate) fn metered(&mut self, reads: Reads, place: Place, on_it: &str, value: f64, uncertainty: f64) {
+        let id = format!("meter-{}", self.expected.len());
+        let on_it = on_it.to_string() + &meter(reads, &id);
+        self.body += &mitsuba::flat("rectangle", &format!("wall-{}", self.expected.len()), place, &on_it);
+        self.expect(&id, reads, &[value], uncertainty);
     }
 
     /// A black square receiver for the mean irradiance, which is computed from the irradiance at points of it.
@@ -92,7 +100,7 @@ impl Draft {
     }
 
     /// A radiance meter at `origin` that looks at `target`.
-    pub(crate) fn radiance(&mut self, origin: Vector, target: Vector, value: f64, uncertainty: f64) {
+    pub(crate) fn radiance(&mut self, origin: Vector, target: Vector, value: &[f64], uncertainty: f64) {
         let id = format!("meter-{}", self.expected.len());
         self.body += &mitsuba::radiance_meter(&id, origin, target);
         self.expect(&id, Reads::Radiance, value, uncertainty);

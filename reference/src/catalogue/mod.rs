@@ -28,10 +28,14 @@ pub const ALL: &[Entry] = &[
     Entry { id: "C4", title: "spherical lamp and a tilted element", cases: lamps::ball::cases },
     Entry { id: "C5", title: "endless strip and tube", cases: strips_and_tubes },
     Entry { id: "C6", title: "lamp with tabulated intensity", cases: lamps::table::cases },
+    Entry { id: "D1", title: "integrating sphere", cases: integrating_sphere::cases },
+    Entry { id: "D2", title: "furnace", cases: furnace::cases },
+    Entry { id: "D4", title: "diffuse cube with an emitting ceiling", cases: emitting_cube::cases },
+    Entry { id: "I2", title: "mean irradiance of a closed room", cases: closed_room::cases },
     Entry { id: "I3", title: "light reflected by an evenly lit wall", cases: lamps::patch::wall_cases },
 ];
 
-use crate::{lamps, square_lamp};
+use crate::{closed_room, emitting_cube, furnace, integrating_sphere, lamps, square_lamp};
 
 fn rectangles() -> Vec<Case> {
     let mut cases = square_lamp::cases();

@@ -32,6 +32,21 @@ impl Place {
         Place { normal: self.normal.map(|x| -x), ..self }
     }
 
+    /// The six faces of a box between two opposite corners, facing inwards: the lower and upper one of x, then y, then z.
+    pub(crate) fn inside_box(from: Vector, to: Vector) -> [Place; 6] {
+        let middle = [0, 1, 2].map(|i| 0.5 * (from[i] + to[i]));
+        std::array::from_fn(|face| {
+            let (axis, upper) = (face / 2, face % 2 == 1);
+            let (mut centre, mut normal, mut up) = (middle, [0.0; 3], [0.0; 3]);
+            centre[axis] = if upper { to[axis] } else { from[axis] };
+            normal[axis] = if upper { -1.0 } else { 1.0 };
+            let (other, up_axis) = if axis == 2 { (0, 1) } else { (1 - axis, 2) };
+            up[up_axis] = 1.0;
+            let half = [other, up_axis].map(|i| 0.5 * (to[i] - from[i]));
+            Place { centre, normal, up, half }
+        })
+    }
+
     /// The two half-axes as vectors (m), in the order of `half`.
     pub(crate) fn axes(&self) -> [Vector; 2] {
         let first = unit(cross(self.up, self.normal));
@@ -69,5 +84,11 @@ fn axes_and_points_are_where_the_format_puts_them() {
     let place = Place { centre: [1.0, 2.0, 3.0], normal: [0.0, 2.0, 0.0], up: [0.0, 1.0, 1.0], half: [2.0, 0.5] };
     assert_eq!(place.axes(), [[-2.0, 0.0, 0.0], [0.0, 0.0, 0.5]]);
     assert_eq!(place.point(0.5, -1.0), [0.0, 2.0, 2.5]);
+    let faces = Place::inside_box([0.0; 3], [2.0, 4.0, 6.0]);
+    for (face, place) in faces.iter().enumerate() {
+        let (axis, corner) = (face / 2, place.point(1.0, -1.0));
+        assert_eq!(corner[axis], if face % 2 == 1 { [2.0, 4.0, 6.0][axis] } else { 0.0 });
+        assert!((0..3).all(|i| corner[i] == 0.0 || corner[i] == [2.0, 4.0, 6.0][i]), "{face} {corner:?}");
+    }
     assert_eq!(Place::floor([0.0; 3], [3.0, 4.0]).axes(), [[3.0, 0.0, 0.0], [0.0, 4.0, 0.0]]);
 }
