@@ -32,10 +32,13 @@ pub mod lamps;
 mod mitsuba;
 pub mod nearest_law;
 mod out_of_range;
+pub mod pane;
+pub mod paraboloid;
 mod quadrature;
 #[cfg(test)]
 mod random;
 pub mod rendering_equation;
+pub mod scattering;
 pub mod square_lamp;
 mod vector;
 

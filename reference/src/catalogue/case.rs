@@ -61,6 +61,12 @@ impl Draft {
         self.body += element;
     }
 
+    /// Adds a black wall.
+    pub(crate) fn wall(&mut self, place: Place) {
+        let id = format!("black-{}", self.body.matches("id=\"black-").count());
+        self.add(&mitsuba::flat("rectangle", &id, place, &mitsuba::diffuse(&[0.0])));
+    }
+
     /// Puts a file beside the scene.
     pub(crate) fn file(&mut self, name: &str, text: String) {
         self.files.push((name.to_string(), text));

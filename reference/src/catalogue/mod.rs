@@ -31,11 +31,13 @@ pub const ALL: &[Entry] = &[
     Entry { id: "D1", title: "integrating sphere", cases: integrating_sphere::cases },
     Entry { id: "D2", title: "furnace", cases: furnace::cases },
     Entry { id: "D4", title: "diffuse cube with an emitting ceiling", cases: emitting_cube::cases },
+    Entry { id: "E1", title: "window pane", cases: pane::cases },
+    Entry { id: "E3", title: "paraboloid mirror", cases: paraboloid::cases },
     Entry { id: "I2", title: "mean irradiance of a closed room", cases: closed_room::cases },
     Entry { id: "I3", title: "light reflected by an evenly lit wall", cases: lamps::patch::wall_cases },
 ];
 
-use crate::{closed_room, emitting_cube, furnace, integrating_sphere, lamps, square_lamp};
+use crate::{closed_room, emitting_cube, furnace, integrating_sphere, lamps, pane, paraboloid, square_lamp};
 
 fn rectangles() -> Vec<Case> {
     let mut cases = square_lamp::cases();

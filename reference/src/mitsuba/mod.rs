@@ -71,6 +71,20 @@ pub(crate) fn dielectric(index: f64) -> String {
     )
 }
 
+/// A clear pane without thickness, all reflections between its two faces included.
+pub(crate) fn thin_dielectric(index: f64) -> String {
+    dielectric(index).replacen("dielectric", "thindielectric", 1)
+}
+
+/// A mirror that loses nothing.
+pub(crate) const PERFECT_MIRROR: &str = "<bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/></bsdf>";
+
+/// The same radiance from all directions.
+pub(crate) fn constant_light(radiance: &[f64]) -> String {
+    let radiance = channels(radiance);
+    format!("  <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter>\n")
+}
+
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
     format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
@@ -81,6 +95,23 @@ pub(crate) fn inside_cube(id: &str, half_edge: f64, on_it: &str) -> String {
     format!(
         "  <shape type=\"cube\" id=\"{id}\"><transform name=\"to_world\"><scale value=\"{half_edge}\"/></transform>\
          <boolean name=\"flip_normals\" value=\"true\"/>{on_it}</shape>\n"
+    )
+}
+
+/// A box of these half-edges, seen from outside.
+pub(crate) fn block(id: &str, [cx, cy, cz]: [f64; 3], [x, y, z]: [f64; 3], on_it: &str) -> String {
+    format!(
+        "  <shape type=\"cube\" id=\"{id}\"><transform name=\"to_world\"><scale x=\"{x}\" y=\"{y}\" z=\"{z}\"/>\
+         <translate x=\"{cx}\" y=\"{cy}\" z=\"{cz}\"/></transform>{on_it}</shape>\n"
+    )
+}
+
+/// A perfect paraboloid mirror `z = r^2 / (4 f)` up to its rim, which opens towards +z, moved to its `vertex`.
+pub(crate) fn paraboloid(id: &str, [x, y, z]: [f64; 3], focal_length: f64, rim: f64) -> String {
+    format!(
+        "  <shape type=\"paraboloid\" id=\"{id}\"><float name=\"focal_length\" value=\"{focal_length}\"/>\
+         <float name=\"aperture\" value=\"{rim}\"/><transform name=\"to_world\">\
+         <translate x=\"{x}\" y=\"{y}\" z=\"{z}\"/></transform>{PERFECT_MIRROR}</shape>\n"
     )
 }
 
