@@ -27,13 +27,16 @@ pub mod edge_laws;
 pub mod emitting_cube;
 pub mod fixed_radius_law;
 pub mod furnace;
+pub mod groove;
 pub mod integrating_sphere;
 pub mod lamps;
+pub mod mirror_arc;
 mod mitsuba;
 pub mod nearest_law;
 mod out_of_range;
 pub mod pane;
 pub mod paraboloid;
+pub mod prism;
 mod quadrature;
 #[cfg(test)]
 mod random;

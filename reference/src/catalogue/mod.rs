@@ -31,13 +31,20 @@ pub const ALL: &[Entry] = &[
     Entry { id: "D1", title: "integrating sphere", cases: integrating_sphere::cases },
     Entry { id: "D2", title: "furnace", cases: furnace::cases },
     Entry { id: "D4", title: "diffuse cube with an emitting ceiling", cases: emitting_cube::cases },
+    Entry { id: "D6", title: "V-groove", cases: groove::cases },
     Entry { id: "E1", title: "window pane", cases: pane::cases },
+    Entry { id: "E2", title: "ball lens in a collimated beam", cases: ball_lens::cases },
     Entry { id: "E3", title: "paraboloid mirror", cases: paraboloid::cases },
+    Entry { id: "E4", title: "cylindrical mirror and its caustic", cases: mirror_arc::cases },
+    Entry { id: "E6", title: "prism", cases: prism::cases },
     Entry { id: "I2", title: "mean irradiance of a closed room", cases: closed_room::cases },
     Entry { id: "I3", title: "light reflected by an evenly lit wall", cases: lamps::patch::wall_cases },
 ];
 
-use crate::{closed_room, emitting_cube, furnace, integrating_sphere, lamps, pane, paraboloid, square_lamp};
+use crate::{
+    ball_lens, closed_room, emitting_cube, furnace, groove, integrating_sphere, lamps, mirror_arc, pane, paraboloid,
+    prism, square_lamp,
+};
 
 fn rectangles() -> Vec<Case> {
     let mut cases = square_lamp::cases();

@@ -132,6 +132,12 @@ pub(crate) fn cylinder(id: &str, [from, to]: [[f64; 3]; 2], radius: f64, on_it: 
     )
 }
 
+/// The same facing inwards.
+pub(crate) fn inside_cylinder(id: &str, ends: [[f64; 3]; 2], radius: f64, on_it: &str) -> String {
+    let flipped = "<boolean name=\"flip_normals\" value=\"true\"/>".to_string() + on_it;
+    cylinder(id, ends, radius, &flipped)
+}
+
 /// The square `[-1, 1]^2` at z = 0 facing +z after these transforms (XML, may be empty).
 pub(crate) fn rectangle(id: &str, transform: &str, on_it: &str) -> String {
     let to_world = format!("<transform name=\"to_world\">{transform}</transform>");
