@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 
 use photonlab_photometry::Colour;
 
+use crate::catalogue::{Case, Draft, Reads};
 use crate::mitsuba;
 use crate::out_of_range::{OutOfRange, require_albedo, require_positive};
 
@@ -56,6 +57,32 @@ impl<const C: usize> Furnace<C> {
             body += &mitsuba::radiance_meter(&format!("meter-{i}"), [0.0; 3], target);
         }
         mitsuba::scene(&body)
+    }
+}
+
+/// The catalogue's D2 with an exitance of 1: a sphere that reads its own irradiance, and a cube looked at from its centre
+/// towards the middle of a face, an edge and a corner. Then both once more in colour.
+pub fn cases() -> Vec<Case> {
+    let grey = |rho: f64| Furnace { radiance: Colour([1.0 / PI]), reflectance: Colour([rho]) };
+    let mut cases: Vec<Case> =
+        [0.0, 0.2, 0.5, 0.8, 0.9].iter().flat_map(|&rho| grey(rho).both(&format!("reflectance {rho}"))).collect();
+    let coloured = Furnace { radiance: Colour([1.0, 2.0, 0.5]), reflectance: Colour([0.1, 0.5, 0.9]) };
+    cases.extend(coloured.both("three channels"));
+    cases
+}
+
+impl<const C: usize> Furnace<C> {
+    fn both(&self, name: &str) -> [Case; 2] {
+        let wall = mitsuba::diffuse(&self.reflectance.0) + &mitsuba::area_lamp(&self.radiance.0);
+        let on_sphere = wall.clone() + &mitsuba::irradiance_meter("wall");
+        let mut sphere = Draft::with(mitsuba::sphere("furnace", [0.0; 3], 1.0, true, &on_sphere));
+        let precision = 1e-12 * self.irradiance().max();
+        sphere.expect("wall", Reads::Irradiance, &self.irradiance().0, precision);
+        let mut cube = Draft::with(mitsuba::inside_cube("furnace", 0.5, &wall));
+        for [u, v] in [[0.0, 0.0], [0.999, 0.0], [0.999, 0.999]] {
+            cube.radiance([0.0; 3], [0.5, 0.5 * u, 0.5 * v], &self.total_radiance().0, precision);
+        }
+        [sphere.case(format!("sphere, {name}")), cube.case(format!("cube, {name}"))]
     }
 }
 

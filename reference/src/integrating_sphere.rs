@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 
 use photonlab_photometry::Colour;
 
+use crate::catalogue::{Case, Draft, Reads};
 use crate::mitsuba;
 use crate::out_of_range::{OutOfRange, require, require_albedo, require_positive};
 
@@ -91,6 +92,35 @@ impl<const C: usize> IntegratingSphere<C> {
                 + &mitsuba::sphere("wall", [0.0; 3], self.radius, true, &wall)),
         )
     }
+}
+
+impl IntegratingSphere<1> {
+    /// Mean irradiance of the whole wall, and its radiance from the centre towards these directions.
+    fn case(&self, towards: &[[f64; 3]]) -> Case {
+        let wall = mitsuba::diffuse(&self.reflectance.0) + &mitsuba::irradiance_meter("wall-irradiance");
+        let intensity = self.flux * (1.0 / (4.0 * PI));
+        let mut draft = Draft::with(
+            mitsuba::point_lamp(self.source, &intensity.0)
+                + &mitsuba::sphere("wall", [0.0; 3], self.radius, true, &wall),
+        );
+        let precision = 1e-12 * self.mean_irradiance()[0];
+        draft.expect("wall-irradiance", Reads::Irradiance, &self.mean_irradiance().0, precision);
+        for &at in towards {
+            draft.radiance([0.0; 3], at.map(|x| x * self.radius), &self.radiance(at).0, precision);
+        }
+        draft.case(format!("reflectance {}", self.reflectance[0]))
+    }
+}
+
+/// The catalogue's D1: radius 1 m, 1000 lm, the lamp 0.6 m off the centre.
+pub fn cases() -> Vec<Case> {
+    [0.1, 0.3, 0.5, 0.8, 0.9, 0.95, 0.98]
+        .map(|rho| {
+            let (source, flux, reflectance) = ([0.0, 0.0, 0.6], Colour([1000.0]), Colour([rho]));
+            let sphere = IntegratingSphere { radius: 1.0, source, flux, reflectance };
+            sphere.case(&[[0.6, 0.8, 0.0], [0.8, 0.0, 0.6], [0.0, 0.28, -0.96]])
+        })
+        .to_vec()
 }
 
 fn length(v: [f64; 3]) -> f64 {

@@ -20,18 +20,29 @@
 #![forbid(unsafe_code)]
 
 pub mod ball_lens;
+pub mod catalogue;
+pub mod closed_room;
 pub mod cube;
 pub mod edge_laws;
+pub mod emitting_cube;
 pub mod fixed_radius_law;
 pub mod furnace;
+pub mod groove;
 pub mod integrating_sphere;
+pub mod lamps;
+pub mod mirror_arc;
 mod mitsuba;
 pub mod nearest_law;
 mod out_of_range;
+pub mod pane;
+pub mod paraboloid;
+pub mod prism;
 mod quadrature;
 #[cfg(test)]
 mod random;
 pub mod rendering_equation;
+pub mod scattering;
 pub mod square_lamp;
+mod vector;
 
 pub use out_of_range::OutOfRange;

@@ -2,6 +2,9 @@
 
 use std::f64::consts::PI;
 
+use crate::mitsuba::Place;
+use crate::vector::Vector;
+
 /// The Gauss-Legendre rule with `n` nodes on `[0, 1]`: exact for polynomials of degree `2n - 1`.
 ///
 /// Nodes by Newton's iteration on the Legendre recurrence (Press et al., "Numerical Recipes", section 4.6); good to a
@@ -48,6 +51,12 @@ impl Gauss {
         let from = |i: usize| a + step * i as f64;
         (0..panels).map(|i| self.integrate(from(i), from(i + 1), &mut f)).sum()
     }
+}
+
+/// The mean over a flat rectangle of a function of the point: 8 by 8 nodes, for functions that are smooth over it.
+pub(crate) fn mean_over(place: Place, f: impl Fn(Vector) -> f64) -> f64 {
+    let rule = Gauss::new(8);
+    rule.integrate(0.0, 1.0, |u| rule.integrate(0.0, 1.0, |v| f(place.point(2.0 * u - 1.0, 2.0 * v - 1.0))))
 }
 
 /// The Legendre polynomial of degree `n` at `x` and its derivative.

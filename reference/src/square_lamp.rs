@@ -7,7 +7,8 @@
 
 use std::f64::consts::PI;
 
-use crate::mitsuba;
+use crate::catalogue::{Case, Draft, Reads};
+use crate::mitsuba::{self, Place};
 use crate::out_of_range::{OutOfRange, require_positive};
 use crate::quadrature::Gauss;
 
@@ -69,6 +70,22 @@ impl RectangularLamp {
     }
 }
 
+/// The parallel part of the catalogue's C2: 2 by 1 m, 1.5 m above the floor, 1000 lm/m^2; square meters of half-edge
+/// 0.05 m, and the flux on the half `[-1, 0] x [-0.5, 0.5]` of the floor right below the lamp.
+pub fn cases() -> Vec<Case> {
+    let lamp = RectangularLamp { size: [2.0, 1.0], height: 1.5, radiance: 1000.0 / PI };
+    let place = Place::floor([0.0, 0.0, lamp.height], lamp.size.map(|x| 0.5 * x)).turned();
+    let on_it = mitsuba::diffuse(&[0.0]) + &mitsuba::area_lamp(&[lamp.radiance]);
+    let (mut points, mut flux) =
+        [(); 2].map(|()| Draft::with(mitsuba::flat("rectangle", "lamp", place, &on_it))).into();
+    for [x, y] in [[-1.0, -0.5], [0.0, 0.0], [-0.5, -0.25], [2.0, 0.0], [2.0, 1.5], [-1.0, -1.5]] {
+        points.square(Place::floor([x, y, 0.0], [0.05; 2]), 1e-9, |p| lamp.irradiance(p[0], p[1]));
+    }
+    let mean = lamp.mean_irradiance([-1.0, -0.5], [0.0, 0.5]);
+    flux.receiver(Reads::Flux, "rectangle", Place::floor([-0.5, 0.0, 0.0], [0.5; 2]), mean, 1e-9);
+    vec![points.case("irradiance"), flux.case("flux")]
+}
+
 /// Share of the exitance of a rectangle `[0, a] x [0, b]` at height 1 that a parallel element below its corner receives
 /// per unit area; odd in `a` and in `b`.
 fn corner(a: f64, b: f64) -> f64 {
@@ -112,6 +129,13 @@ mod tests {
         for (x, y, share) in [(0.0, 0.0, 0.20907124), (1.0, 0.5, 0.12235966), (2.0, 0.0, 0.046884983)] {
             assert!((lamp.irradiance(x, y) - share).abs() < 1e-8);
         }
+    }
+
+    /// Catalogue C2: the share of the 2000 lm that falls on the half of the floor right below the lamp.
+    #[test]
+    fn the_catalogue_flux() {
+        let flux = cases()[1].expected[0].value[0];
+        assert!((flux / 2000.0 - 0.087967464).abs() < 1e-8, "{flux}");
     }
 
     #[test]

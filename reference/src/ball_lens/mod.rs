@@ -10,6 +10,7 @@
 //!
 //! The floor's own reflection is left out and bounded by [`BallLens::floor_return_bound`].
 
+mod encircled;
 mod floor_return;
 mod flux;
 mod ray_map;
@@ -17,6 +18,7 @@ mod ray_map;
 use crate::mitsuba;
 use crate::out_of_range::{OutOfRange, require, require_positive};
 
+pub use encircled::cases;
 pub use flux::Fold;
 
 /// A ball of glass above the floor z = 0, its centre on the z axis, in light of irradiance 1 along -z.

@@ -12,8 +12,8 @@
 
 #[cfg(test)]
 mod checks;
-mod mesh;
-mod operator;
+pub(crate) mod mesh;
+pub(crate) mod operator;
 mod solution;
 
 use std::f64::consts::PI;

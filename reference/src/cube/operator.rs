@@ -19,7 +19,19 @@ use crate::quadrature::Gauss;
 const TAIL: f64 = 14.0;
 
 /// Distances from an edge are kept above this many half-edges, so that a value at the edge is the limit.
-const AT_EDGE: f64 = 1e-12;
+pub(crate) const AT_EDGE: f64 = 1e-12;
+
+/// How a face's far half relates to its near one: 1 the same, -1 the opposite.
+#[derive(Clone, Copy)]
+pub(crate) struct Mirror {
+    /// Away from the shared edge.
+    pub(crate) across: f64,
+    /// Along the shared edge.
+    pub(crate) along: f64,
+}
+
+/// A face that is the same in all four quarters.
+pub(crate) const EVEN: Mirror = Mirror { across: 1.0, along: 1.0 };
 
 /// The one-bounce operator on a mesh.
 pub(crate) struct Operator {
@@ -57,25 +69,37 @@ impl Operator {
         let n = self.mesh.len();
         let s = s.map(|x| x.max(AT_EDGE));
         let mut square = vec![0.0; n * n];
-        self.add_opposite(s, &mut square);
+        self.add_opposite(s, 1.0, &mut square);
         for [across, along] in [s, [s[1], s[0]]] {
-            self.add_neighbour(across, along, &mut square);
-            self.add_neighbour(2.0 - across, along, &mut square);
+            self.add_neighbour(across, along, EVEN, &mut square);
+            self.add_neighbour(2.0 - across, along, EVEN, &mut square);
         }
+        self.fold(&square)
+    }
+
+    /// A square of weights for all pairs of nodes, as weights for the pairs whose order does not matter.
+    pub(crate) fn fold(&self, square: &[f64]) -> Vec<f64> {
+        let n = self.mesh.len();
         let both = |i: usize, j: usize| {
             if i == j { square[i * n + i] } else { square[i * n + j] + square[j * n + i] }
         };
         (0..n).flat_map(|i| (0..=i).map(move |j| both(i, j))).collect()
     }
 
-    fn add_opposite(&self, s: [f64; 2], square: &mut [f64]) {
+    /// The mesh along half an edge.
+    pub(crate) fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Adds the opposite face, even in its first coordinate; in its second the far half is `mirror` times the near one.
+    pub(crate) fn add_opposite(&self, s: [f64; 2], mirror: f64, square: &mut [f64]) {
         let Mesh { s: nodes, weight, .. } = &self.mesh;
         for (i, row) in square.chunks_exact_mut(nodes.len()).enumerate() {
             for du in [s[0] - nodes[i], 2.0 - s[0] - nodes[i]] {
                 for (j, value) in row.iter_mut().enumerate() {
-                    for dv in [s[1] - nodes[j], 2.0 - s[1] - nodes[j]] {
+                    for (dv, sign) in [(s[1] - nodes[j], 1.0), (2.0 - s[1] - nodes[j], mirror)] {
                         let r2 = 4.0 + du * du + dv * dv;
-                        *value += weight[i] * weight[j] * 4.0 / (PI * r2 * r2);
+                        *value += sign * weight[i] * weight[j] * 4.0 / (PI * r2 * r2);
                     }
                 }
             }
@@ -83,32 +107,33 @@ impl Operator {
     }
 
     /// Adds a neighbouring face for a point at distance `a` from the shared edge, `along` from that edge's nearer end.
-    fn add_neighbour(&self, a: f64, along: f64, square: &mut [f64]) {
+    /// Rows of `square` belong to the distance from the shared edge.
+    pub(crate) fn add_neighbour(&self, a: f64, along: f64, mirror: Mirror, square: &mut [f64]) {
         let Mesh { s: nodes, weight, order, .. } = &self.mesh;
         let n = nodes.len();
         let mut line = vec![0.0; n];
         let close = self.mesh.ends[1] * 4.0 > a;
         if close {
-            self.add_strip_at_edge(a, along, square);
+            self.add_strip_at_edge(a, along, mirror, square);
         }
         for (i, row) in square.chunks_exact_mut(n).enumerate() {
-            let near_half = (!close || i >= *order).then_some(nodes[i]);
-            for z in near_half.into_iter().chain([2.0 - nodes[i]]) {
-                self.line(a.hypot(z), along, &mut line);
-                let factor = weight[i] * a * z / PI;
+            let near_half = (!close || i >= *order).then_some((nodes[i], 1.0));
+            for (z, sign) in near_half.into_iter().chain([(2.0 - nodes[i], mirror.across)]) {
+                self.line(a.hypot(z), along, mirror.along, &mut line);
+                let factor = sign * weight[i] * a * z / PI;
                 row.iter_mut().zip(&line).for_each(|(value, x)| *value += factor * x);
             }
         }
     }
 
     /// The neighbour's panel at the shared edge, when the point is as close to that edge: `z = a sinh t`.
-    fn add_strip_at_edge(&self, a: f64, along: f64, square: &mut [f64]) {
+    fn add_strip_at_edge(&self, a: f64, along: f64, mirror: Mirror, square: &mut [f64]) {
         let (order, n) = (self.mesh.order, self.mesh.len());
         let mut line = vec![0.0; n];
         let mut basis = vec![0.0; order];
         self.segments(0.0, (self.mesh.ends[1] / a).asinh(), |t, weight| {
             let (z, c) = (a * t.sinh(), a * t.cosh());
-            self.line(c, along, &mut line);
+            self.line(c, along, mirror.along, &mut line);
             basis.fill(0.0);
             self.mesh.add_basis(0, z, weight * a * z * c / PI, &mut basis);
             for (i, b) in basis.iter().enumerate() {
@@ -119,19 +144,19 @@ impl Operator {
     }
 
     /// Weights along a line parallel to the shared edge: the integral over the whole edge of the basis function of
-    /// each node (and of its mirror image) over `(c^2 + y^2)^2`.
-    fn line(&self, c: f64, along: f64, out: &mut [f64]) {
+    /// each node (and of its mirror image, times `mirror`) over `(c^2 + y^2)^2`.
+    fn line(&self, c: f64, along: f64, mirror: f64, out: &mut [f64]) {
         out.fill(0.0);
-        for centre in [along, 2.0 - along] {
+        for (centre, sign) in [(along, 1.0), (2.0 - along, mirror)] {
             for p in 0..self.mesh.panels() {
                 let nodes = p * self.mesh.order..(p + 1) * self.mesh.order;
                 if self.is_near(p, c, centre) {
-                    self.add_peak(p, c, centre, &mut out[nodes]);
+                    self.add_peak(p, c, centre, sign, &mut out[nodes]);
                 } else {
                     for i in nodes {
                         let y = self.mesh.s[i] - centre;
                         let r2 = c * c + y * y;
-                        out[i] += self.mesh.weight[i] / (r2 * r2);
+                        out[i] += sign * self.mesh.weight[i] / (r2 * r2);
                     }
                 }
             }
@@ -149,7 +174,7 @@ impl Operator {
         sum + (sum * sum - 1.0).max(0.0).sqrt() < if p == 0 { 20.0 } else { 4.5 }
     }
 
-    fn add_peak(&self, p: usize, c: f64, centre: f64, out: &mut [f64]) {
+    fn add_peak(&self, p: usize, c: f64, centre: f64, sign: f64, out: &mut [f64]) {
         let (near, far) = (self.mesh.ends[p], self.mesh.ends[p + 1]);
         let from = ((near - centre) / c).asinh().max(-TAIL);
         let to = ((far - centre) / c).asinh().min(TAIL);
@@ -159,7 +184,7 @@ impl Operator {
         self.segments(from, to, |t, weight| {
             let cosh = c * t.cosh();
             let s = (centre + c * t.sinh()).clamp(near, far);
-            self.mesh.add_basis(p, s, weight / (cosh * cosh * cosh), out);
+            self.mesh.add_basis(p, s, sign * weight / (cosh * cosh * cosh), out);
         });
     }
 

@@ -1,5 +1,9 @@
 //! Pieces of Mitsuba 3 scene files, so that each scene can be written from the parameters that its answer uses.
 
+mod place;
+
+pub(crate) use place::{Place, flat};
+
 /// Channel values as Mitsuba reads them: one grey value or three separated by commas.
 pub(crate) fn channels(values: &[f64]) -> String {
     let words: Vec<String> = values.iter().map(f64::to_string).collect();
@@ -13,9 +17,16 @@ fn triple(tag: &str, name: &str, [x, y, z]: [f64; 3]) -> String {
 
 /// A whole file around its emitters, shapes and sensors; light paths of any length.
 pub(crate) fn scene(body: &str) -> String {
+    scene_to_depth(None, body)
+}
+
+/// The same with light paths of at most `depth` segments, the last one to the sensor included.
+pub(crate) fn scene_to_depth(depth: Option<u32>, body: &str) -> String {
+    let depth = depth.map_or(-1, i64::from);
+    let integrator = if body.contains("<medium ") { "volpath" } else { "path" };
     format!(
         "<scene version=\"3.0.0\">\n  \
-         <integrator type=\"path\"><integer name=\"max_depth\" value=\"-1\"/></integrator>\n{body}</scene>\n"
+         <integrator type=\"{integrator}\"><integer name=\"max_depth\" value=\"{depth}\"/></integrator>\n{body}</scene>\n"
     )
 }
 
@@ -23,6 +34,22 @@ pub(crate) fn scene(body: &str) -> String {
 pub(crate) fn point_lamp(position: [f64; 3], intensity: &[f64]) -> String {
     let (position, intensity) = (triple("point", "position", position), channels(intensity));
     format!("  <emitter type=\"point\">{position}<rgb name=\"intensity\" value=\"{intensity}\"/></emitter>\n")
+}
+
+/// A point lamp whose intensity falls like `cos^exponent` of the angle from `direction`, 0 behind; this one on its axis.
+pub(crate) fn lobe_lamp(position: [f64; 3], direction: [f64; 3], exponent: f64, intensity: &[f64]) -> String {
+    let (position, direction) = (triple("point", "position", position), triple("vector", "direction", direction));
+    let intensity = channels(intensity);
+    format!(
+        "  <emitter type=\"point\">{position}{direction}<float name=\"exponent\" value=\"{exponent}\"/>\
+         <rgb name=\"intensity\" value=\"{intensity}\"/></emitter>\n"
+    )
+}
+
+/// A point lamp whose intensities stand in a luminaire file beside the scene, its axis turned along `direction`.
+pub(crate) fn file_lamp(position: [f64; 3], direction: [f64; 3], file: &str) -> String {
+    let (position, direction) = (triple("point", "position", position), triple("vector", "direction", direction));
+    format!("  <emitter type=\"ies\">{position}{direction}<string name=\"filename\" value=\"{file}\"/></emitter>\n")
 }
 
 /// Parallel light from infinity.
@@ -44,6 +71,20 @@ pub(crate) fn dielectric(index: f64) -> String {
     )
 }
 
+/// A clear pane without thickness, all reflections between its two faces included.
+pub(crate) fn thin_dielectric(index: f64) -> String {
+    dielectric(index).replacen("dielectric", "thindielectric", 1)
+}
+
+/// A mirror that loses nothing.
+pub(crate) const PERFECT_MIRROR: &str = "<bsdf type=\"conductor\"><string name=\"material\" value=\"none\"/></bsdf>";
+
+/// The same radiance from all directions.
+pub(crate) fn constant_light(radiance: &[f64]) -> String {
+    let radiance = channels(radiance);
+    format!("  <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter>\n")
+}
+
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
     format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
@@ -57,6 +98,23 @@ pub(crate) fn inside_cube(id: &str, half_edge: f64, on_it: &str) -> String {
     )
 }
 
+/// A box of these half-edges, seen from outside.
+pub(crate) fn block(id: &str, [cx, cy, cz]: [f64; 3], [x, y, z]: [f64; 3], on_it: &str) -> String {
+    format!(
+        "  <shape type=\"cube\" id=\"{id}\"><transform name=\"to_world\"><scale x=\"{x}\" y=\"{y}\" z=\"{z}\"/>\
+         <translate x=\"{cx}\" y=\"{cy}\" z=\"{cz}\"/></transform>{on_it}</shape>\n"
+    )
+}
+
+/// A perfect paraboloid mirror `z = r^2 / (4 f)` up to its rim, which opens towards +z, moved to its `vertex`.
+pub(crate) fn paraboloid(id: &str, [x, y, z]: [f64; 3], focal_length: f64, rim: f64) -> String {
+    format!(
+        "  <shape type=\"paraboloid\" id=\"{id}\"><float name=\"focal_length\" value=\"{focal_length}\"/>\
+         <float name=\"aperture\" value=\"{rim}\"/><transform name=\"to_world\">\
+         <translate x=\"{x}\" y=\"{y}\" z=\"{z}\"/></transform>{PERFECT_MIRROR}</shape>\n"
+    )
+}
+
 /// A sphere; `inside` turns its normals inwards.
 pub(crate) fn sphere(id: &str, centre: [f64; 3], radius: f64, inside: bool, on_it: &str) -> String {
     let centre = triple("point", "center", centre);
@@ -64,6 +122,20 @@ pub(crate) fn sphere(id: &str, centre: [f64; 3], radius: f64, inside: bool, on_i
         "  <shape type=\"sphere\" id=\"{id}\">{centre}<float name=\"radius\" value=\"{radius}\"/>\
          <boolean name=\"flip_normals\" value=\"{inside}\"/>{on_it}</shape>\n"
     )
+}
+
+/// The lateral surface of a cylinder between two points of its axis, facing outwards.
+pub(crate) fn cylinder(id: &str, [from, to]: [[f64; 3]; 2], radius: f64, on_it: &str) -> String {
+    let (from, to) = (triple("point", "p0", from), triple("point", "p1", to));
+    format!(
+        "  <shape type=\"cylinder\" id=\"{id}\">{from}{to}<float name=\"radius\" value=\"{radius}\"/>{on_it}</shape>\n"
+    )
+}
+
+/// The same facing inwards.
+pub(crate) fn inside_cylinder(id: &str, ends: [[f64; 3]; 2], radius: f64, on_it: &str) -> String {
+    let flipped = "<boolean name=\"flip_normals\" value=\"true\"/>".to_string() + on_it;
+    cylinder(id, ends, radius, &flipped)
 }
 
 /// The square `[-1, 1]^2` at z = 0 facing +z after these transforms (XML, may be empty).
@@ -91,6 +163,11 @@ pub(crate) fn radiance_meter(id: &str, origin: [f64; 3], target: [f64; 3]) -> St
 /// A meter that reads the mean irradiance over the shape it is put on.
 pub(crate) fn irradiance_meter(id: &str) -> String {
     format!("<sensor type=\"irradiancemeter\" id=\"{id}\">{}</sensor>", film(1, 4096))
+}
+
+/// A meter that reads the whole flux on the shape it is put on.
+pub(crate) fn flux_meter(id: &str) -> String {
+    format!("<sensor type=\"fluxmeter\" id=\"{id}\">{}</sensor>", film(1, 4096))
 }
 
 /// A camera on the z axis looking down at the floor's cells: `size` by `size` over `[-half_width, half_width]^2`, +y up.

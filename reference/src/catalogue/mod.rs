@@ -1,0 +1,90 @@
+//! Every scene with a known answer in one list, so that one loop can run them all and compare every meter.
+//!
+//! The identifiers are those of the project's catalogue of closed forms: C direct light, D interreflection, E specular
+//! paths, F participating media, G scattering laws, I photometry.
+
+mod case;
+
+pub use case::{Case, Expected, Reads};
+
+pub(crate) use case::Draft;
+
+/// An entry of the catalogue.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// Its identifier, such as `C1`.
+    pub id: &'static str,
+    /// What it is, in a few words.
+    pub title: &'static str,
+    /// Its scenes with their answers. Those of D4 and F7 take seconds to compute, the others milliseconds.
+    pub cases: fn() -> Vec<Case>,
+}
+
+/// All entries that have scenes.
+pub const ALL: &[Entry] = &[
+    Entry { id: "C1", title: "point lamp over a plane", cases: lamps::point::cases },
+    Entry { id: "C2", title: "rectangular lamp, parallel and standing", cases: rectangles },
+    Entry { id: "C3", title: "disc lamp", cases: lamps::disc::cases },
+    Entry { id: "C4", title: "spherical lamp and a tilted element", cases: lamps::ball::cases },
+    Entry { id: "C5", title: "endless strip and tube", cases: strips_and_tubes },
+    Entry { id: "C6", title: "lamp with tabulated intensity", cases: lamps::table::cases },
+    Entry { id: "D1", title: "integrating sphere", cases: integrating_sphere::cases },
+    Entry { id: "D2", title: "furnace", cases: furnace::cases },
+    Entry { id: "D4", title: "diffuse cube with an emitting ceiling", cases: emitting_cube::cases },
+    Entry { id: "D6", title: "V-groove", cases: groove::cases },
+    Entry { id: "E1", title: "window pane", cases: pane::cases },
+    Entry { id: "E2", title: "ball lens in a collimated beam", cases: ball_lens::cases },
+    Entry { id: "E3", title: "paraboloid mirror", cases: paraboloid::cases },
+    Entry { id: "E4", title: "cylindrical mirror and its caustic", cases: mirror_arc::cases },
+    Entry { id: "E6", title: "prism", cases: prism::cases },
+    Entry { id: "I2", title: "mean irradiance of a closed room", cases: closed_room::cases },
+    Entry { id: "I3", title: "light reflected by an evenly lit wall", cases: lamps::patch::wall_cases },
+];
+
+use crate::{
+    ball_lens, closed_room, emitting_cube, furnace, groove, integrating_sphere, lamps, mirror_arc, pane, paraboloid,
+    prism, square_lamp,
+};
+
+fn rectangles() -> Vec<Case> {
+    let mut cases = square_lamp::cases();
+    cases.extend(lamps::patch::lamp_cases());
+    cases
+}
+
+fn strips_and_tubes() -> Vec<Case> {
+    let mut cases = lamps::strip::cases();
+    cases.extend(lamps::tube::cases());
+    cases
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use super::*;
+
+    /// Every case is a well-formed scene whose sensors are exactly those it has answers for.
+    #[test]
+    fn answers_and_sensors_belong_together() {
+        let mut ids = HashSet::new();
+        for entry in ALL {
+            assert!(ids.insert(entry.id), "{} twice", entry.id);
+            let (cases, mut names) = ((entry.cases)(), HashSet::new());
+            assert!(!cases.is_empty(), "{}", entry.id);
+            for case in cases {
+                assert!(names.insert(case.name.clone()), "{}: {} twice", entry.id, case.name);
+                crate::mitsuba::assert_balanced(&case.xml);
+                assert_eq!(case.xml.matches("<sensor ").count(), case.expected.len(), "{} {}", entry.id, case.name);
+                let mut sensors = HashSet::new();
+                for e in &case.expected {
+                    let named = format!("id=\"{}\"", e.sensor);
+                    assert!(sensors.insert(&e.sensor) && case.xml.contains(&named), "{}: {}", case.name, e.sensor);
+                    assert!(e.value.iter().all(|v| v.is_finite() && *v >= 0.0), "{}: {e:?}", case.name);
+                    let scale = case.expected.iter().flat_map(|e| &e.value).fold(0.0, |m: f64, v| m.max(*v));
+                    assert!(e.uncertainty >= 0.0 && e.uncertainty < 1e-3 * scale, "{} {}: {e:?}", entry.id, case.name);
+                }
+            }
+        }
+    }
+}
