@@ -77,7 +77,7 @@ impl<const C: usize> PhotonMap<C> {
     ) -> Estimate<C> {
         match bandwidth {
             Bandwidth::Radius(radius) => self.within(at, radius, area, tests, weigh),
-            Bandwidth::Nearest { k, max_radius } => self.nearest(at, k, max_radius, area, tests, weigh, scratch),
+            Bandwidth::Nearest { k, max_radius } => self.nearest(at, (k, max_radius), area, tests, weigh, scratch),
         }
     }
 
@@ -116,8 +116,7 @@ impl<const C: usize> PhotonMap<C> {
     fn nearest(
         &self,
         at: &GatherPoint,
-        k: usize,
-        max_radius: f64,
+        (k, max_radius): (usize, f64),
         area: AreaModel,
         tests: &Tests,
         weigh: impl Fn(f64) -> f64,

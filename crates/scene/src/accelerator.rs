@@ -60,7 +60,10 @@ impl Accelerator {
         let entry = (-offset.dot(ray.direction) - 1.75).max(-0.01);
         let local = |t: f64| (((t / self.half_extent) - entry) as f32).next_up();
         let start = offset + entry * ray.direction;
-        let box_ray = BoxRay::new(start.as_vec3().into(), ray.direction.as_vec3().into(), 0.0, local(reach));
+        // Adding zero turns -0 into 0: the tree takes the sign of -0 for negative in one place and not in another, and then
+        // finds nothing.
+        let direction = Vec3A::from(ray.direction.as_vec3()) + Vec3A::ZERO;
+        let box_ray = BoxRay::new(start.as_vec3().into(), direction, 0.0, local(reach));
         tree.wide.ray_traverse(box_ray, &mut RayHit::none(), |_, i| {
             reach = test(tree.wide.primitive_indices[i], reach);
             local(reach)

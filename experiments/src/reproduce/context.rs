@@ -39,6 +39,13 @@ impl Context {
         self.definition.parameters(self.budget)
     }
 
+    /// A folder of this run for files that are not part of the record.
+    pub(super) fn folder(&self, name: &str) -> anyhow::Result<PathBuf> {
+        let path = self.out.join(name);
+        std::fs::create_dir_all(&path)?;
+        Ok(path)
+    }
+
     /// Where a picture of this claim is written, and its path relative to the record.
     pub(super) fn image(&self, name: &str) -> (PathBuf, String) {
         let relative = super::image_path(self.claim, name);

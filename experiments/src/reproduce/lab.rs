@@ -4,7 +4,10 @@ use photonlab_readout::{
     Cell, ErrorOver, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Target, Wanted,
 };
 use photonlab_sampling::Lamps;
-use photonlab_scene::{Needs, World, read::read_scene_str};
+use photonlab_scene::{
+    Needs, World,
+    read::{read_scene, read_scene_str},
+};
 
 /// A scene ready for repeated reading.
 pub(super) struct Lab {
@@ -23,6 +26,12 @@ impl Lab {
     pub(super) fn new(name: &str, xml: &str, defines: &[(&str, &str)]) -> anyhow::Result<Self> {
         let defines: Vec<_> = defines.iter().map(|(name, value)| (name.to_string(), value.to_string())).collect();
         let scene = read_scene_str(xml, name, &defines).map_err(|error| anyhow::anyhow!("{error}"))?;
+        Ok(Self { needs: Needs::of(&scene), world: World::new(scene) })
+    }
+
+    /// Reads a scene from a file.
+    pub(super) fn open(path: &std::path::Path) -> anyhow::Result<Self> {
+        let scene = read_scene(path, &[]).map_err(|error| anyhow::anyhow!("{error}"))?;
         Ok(Self { needs: Needs::of(&scene), world: World::new(scene) })
     }
 

@@ -72,11 +72,11 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let known = || Claim::ALL.map(Claim::id).join(", ");
+    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue]);
+    let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| match word.as_str() {
-        "catalogue" | "atlas" => Err(Failure::usage(format!("{word} is not built yet; claims built: {}", known()))),
-        _ => Claim::ALL
-            .into_iter()
+        "atlas" => Err(Failure::usage(format!("{word} is not built yet; claims built: {}", known()))),
+        _ => all()
             .find(|claim| claim.id() == word)
             .ok_or_else(|| Failure::usage(format!("no claim is called `{word}`; claims built: {}", known()))),
     };

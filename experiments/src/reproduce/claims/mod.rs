@@ -1,5 +1,6 @@
 //! The claims, one file each.
 
+mod catalogue;
 mod edge_darkening;
 mod even_noise;
 mod figure_1;
@@ -28,10 +29,11 @@ pub(super) enum Claim {
     ViewIndependence,
     RenderingEquation,
     Figure1,
+    Catalogue,
 }
 
 impl Claim {
-    /// Every claim, in the order of the report.
+    /// Every claim of the paper, in the order of the report. The catalogue is run when it is asked for.
     pub(super) const ALL: [Claim; 10] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -58,6 +60,7 @@ impl Claim {
             Claim::ViewIndependence => "view-independence",
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
+            Claim::Catalogue => "catalogue",
         }
     }
 
@@ -74,6 +77,7 @@ impl Claim {
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
+            Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
         }
     }
 
@@ -90,6 +94,7 @@ impl Claim {
             Claim::ViewIndependence => view_independence::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
+            Claim::Catalogue => catalogue::run(context),
         }
     }
 }
