@@ -8,7 +8,7 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{Lamps, Purpose, Sight, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
-use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps, probe};
+use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps};
 
 /// Looks into one pass's light.
 pub(crate) struct Look<'p, const C: usize> {
@@ -21,6 +21,8 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) pass: u32,
     /// Points per cell in this pass.
     pub(crate) samples: u64,
+    /// What the weight of each cell's points needs against rays from point lamps.
+    pub(crate) shares: &'p [f64],
 }
 
 /// What one sample of a cell found, in the cell's unit.
@@ -55,7 +57,7 @@ impl<const C: usize> Look<'_, C> {
             Target::Leaving { .. } => return Sample { light: Light::default(), dark: false },
             Target::Patch { shape, film, .. } => {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
-                let share = probe::share(self.world, self.lamps, cell);
+                let share = self.shares[number];
                 let seed = Seed { first, sample, shift, share };
                 return Sample {
                     light: self.irradiance(&point, Sight::meter(point.normal), 0, seed, scratch),
@@ -166,6 +168,6 @@ struct Seed<'s> {
     first: u64,
     sample: u64,
     shift: &'s [f64; lattice::DIMENSIONS],
-    /// See [`probe::share`].
+    /// See [`Look::shares`].
     share: f64,
 }

@@ -14,27 +14,39 @@ use rayon::prelude::*;
 
 use crate::{Cell, Target};
 
+/// Rays are sent if the odds of the two ways can reach this.
+const TRIFLE: f64 = 0.02;
+
 /// Rays that one task follows.
 const BLOCK: u64 = 1024;
 
 /// What the weight of a point on a cell needs: (n1 / n2) A / (4 pi), zero where no rays are sent.
 pub(crate) fn share<const C: usize>(world: &World, lamps: &Lamps<C>, cell: &Cell) -> f64 {
-    match &cell.target {
-        Target::Patch { shape, film, .. } if has_point_lamp(lamps) => {
-            let area = world.cell_area(*shape, cell.cell[1], [film.width, film.height]);
-            rays_per_point([film.width, film.height]) * area / (4.0 * PI)
+    let Target::Patch { shape, film, .. } = &cell.target else { return 0.0 };
+    let size = [film.width, film.height];
+    if is_near_a_lamp(world, lamps, *shape, size) { share_of(world, *shape, cell.cell[1], size) } else { 0.0 }
+}
+
+fn share_of(world: &World, shape: usize, row: u32, size: [u32; 2]) -> f64 {
+    rays_per_point(size) * world.cell_area(shape, row, size) / (4.0 * PI)
+}
+
+/// True if a point lamp is so near that rays from it could carry more than a trifle of what a cell of the shape gets by its
+/// own points. Farther away the points alone are good, and the rare rays that met a cell would only add rare jumps.
+fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize, size: [u32; 2]) -> bool {
+    let share = (0..size[1]).map(|row| share_of(world, shape, row, size)).fold(0.0, f64::max);
+    lamps.lamps.iter().any(|lamp| match &lamp.kind {
+        LampKind::Point { position, .. } => {
+            let near = world.distance_to_shape(shape, *position);
+            share * lamp.brightest_point_emission() >= TRIFLE * near * near
         }
-        _ => 0.0,
-    }
+        _ => false,
+    })
 }
 
 /// As many rays are sent for each cell of a sensor as it has points, and any cell may catch them.
 fn rays_per_point(size: [u32; 2]) -> f64 {
     f64::from(size[0]) * f64::from(size[1])
-}
-
-fn has_point_lamp<const C: usize>(lamps: &Lamps<C>) -> bool {
-    lamps.lamps.iter().any(|lamp| matches!(lamp.kind, LampKind::Point { .. }))
 }
 
 /// What rays from point lamps bring each cell of one sensor: irradiance, weighted against the cells' own points.
@@ -48,11 +60,11 @@ pub(crate) fn probe<const C: usize>(
 ) -> Vec<Colour<C>> {
     let mut found = vec![Colour::ZERO; cells.len()];
     let Some(Target::Patch { shape, film, .. }) = cells.first().map(|cell| &cell.target) else { return found };
-    if !has_point_lamp(lamps) {
+    let size = [film.width, film.height];
+    if !is_near_a_lamp(world, lamps, *shape, size) {
         return found;
     }
     let rays = points * cells.len() as u64;
-    let size = [film.width, film.height];
     let arrivals: Vec<Vec<(usize, Colour<C>)>> = (0..rays.div_ceil(BLOCK))
         .into_par_iter()
         .map(|block| {

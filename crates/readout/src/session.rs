@@ -16,7 +16,7 @@ use crate::{
     bins::Bins,
     look::{Look, Sample},
     maps::PassMaps,
-    probe::probe,
+    probe::{probe, share},
     run::Run,
     trace_pass,
 };
@@ -206,6 +206,7 @@ impl<const C: usize> Session<'_, C> {
         }
         let maps = self.maps(run, number, schedule, source)?;
         let samples = schedule.samples(number);
+        let shares: Vec<f64> = cells.iter().map(|cell| share(self.world, self.lamps, cell)).collect();
         let look = Look {
             world: self.world,
             lamps: self.lamps,
@@ -214,6 +215,7 @@ impl<const C: usize> Session<'_, C> {
             looks_around: self.looks_around(),
             pass: number as u32,
             samples,
+            shares: &shares,
         };
         let blocks = samples.div_ceil(BLOCK);
         let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)

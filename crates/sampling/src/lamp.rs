@@ -114,6 +114,14 @@ impl<const C: usize> Lamp<C> {
         }
     }
 
+    /// The largest value of [`Lamp::point_emission`].
+    pub fn brightest_point_emission(&self) -> f64 {
+        match &self.kind {
+            LampKind::Point { pattern, .. } => 4.0 * PI / pattern::integral(pattern),
+            _ => 0.0,
+        }
+    }
+
     /// True for lamps that no ray from a surface can meet by chance.
     pub fn is_delta(&self) -> bool {
         matches!(self.kind, LampKind::Point { .. } | LampKind::Directional { .. })

@@ -81,6 +81,12 @@ impl World {
         self.first_primitive[shape]..self.first_primitive[shape + 1]
     }
 
+    /// Distance in metres from a point to a shape.
+    pub fn distance_to_shape(&self, shape: usize, position: DVec3) -> f64 {
+        let each = self.primitives_of(shape).map(|p| self.primitives[p as usize].surface.distance(position));
+        each.fold(f64::INFINITY, f64::min)
+    }
+
     /// The shape that a primitive belongs to.
     pub fn shape_of(&self, primitive: u32) -> &Shape {
         &self.scene.shapes[self.primitives[primitive as usize].shape as usize]
