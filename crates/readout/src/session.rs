@@ -256,7 +256,7 @@ impl<const C: usize> Session<'_, C> {
         let counted = count(self.world, self.lamps, &plan, &job, cells.len(), &bins)?;
         for (index, cell) in run.cells.iter_mut().enumerate() {
             let irradiance = counted.flux[index] * (1.0 / bins.measure[index]);
-            let light = Light { irradiance, ..Light::default() };
+            let light = Light { irradiance, reads: 1.0, ..Light::default() };
             cell.push(&light, counted.photons[index] as f64, false);
         }
         run.book(plan.photons(), &counted.ledger);
