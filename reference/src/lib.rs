@@ -30,6 +30,7 @@ pub mod furnace;
 pub mod groove;
 pub mod integrating_sphere;
 pub mod lamps;
+pub mod medium;
 pub mod mirror_arc;
 mod mitsuba;
 pub mod nearest_law;

@@ -37,13 +37,18 @@ pub const ALL: &[Entry] = &[
     Entry { id: "E3", title: "paraboloid mirror", cases: paraboloid::cases },
     Entry { id: "E4", title: "cylindrical mirror and its caustic", cases: mirror_arc::cases },
     Entry { id: "E6", title: "prism", cases: prism::cases },
+    Entry { id: "F1", title: "absorbing medium", cases: medium::attenuation::cases },
+    Entry { id: "F2", title: "light scattered once", cases: medium::once_scattered::cases },
+    Entry { id: "F3", title: "endless scattering medium", cases: medium::infinite::cases },
+    Entry { id: "F6", title: "scattering half-space", cases: medium::half_space::cases },
+    Entry { id: "F7", title: "scattering slab", cases: medium::slab::cases },
     Entry { id: "I2", title: "mean irradiance of a closed room", cases: closed_room::cases },
     Entry { id: "I3", title: "light reflected by an evenly lit wall", cases: lamps::patch::wall_cases },
 ];
 
 use crate::{
-    ball_lens, closed_room, emitting_cube, furnace, groove, integrating_sphere, lamps, mirror_arc, pane, paraboloid,
-    prism, square_lamp,
+    ball_lens, closed_room, emitting_cube, furnace, groove, integrating_sphere, lamps, medium, mirror_arc, pane,
+    paraboloid, prism, square_lamp,
 };
 
 fn rectangles() -> Vec<Case> {

@@ -1,7 +1,9 @@
 //! Pieces of Mitsuba 3 scene files, so that each scene can be written from the parameters that its answer uses.
 
+mod fog;
 mod place;
 
+pub(crate) use fog::{Medium, fog_ball, fog_block, point_lamp_in_fog, radiance_meter_in_fog};
 pub(crate) use place::{Place, flat};
 
 /// Channel values as Mitsuba reads them: one grey value or three separated by commas.
