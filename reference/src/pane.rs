@@ -36,6 +36,11 @@ impl Pane {
         Ok(Pane { index })
     }
 
+    /// The refractive index.
+    pub fn index(&self) -> f64 {
+        self.index
+    }
+
     /// Transmitted share at this cosine of incidence for unpolarised light, without absorption.
     pub fn transmittance(&self, cosine: f64, polarisation: Polarisation) -> f64 {
         let through = |r: f64| (1.0 - r) / (1.0 + r);

@@ -87,6 +87,15 @@ pub(crate) fn constant_light(radiance: &[f64]) -> String {
     format!("  <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter>\n")
 }
 
+/// A sky over the plane z = 0 of this type (`overcast`: CIE traditional, 1:3; `cie1`: CIE general sky, type 1) with this
+/// radiance at the zenith, +z.
+pub(crate) fn sky(kind: &str, zenith: f64) -> String {
+    format!(
+        "  <emitter type=\"sky\"><string name=\"type\" value=\"{kind}\"/>\
+         <rgb name=\"zenith_radiance\" value=\"{zenith}\"/></emitter>\n"
+    )
+}
+
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
     format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
