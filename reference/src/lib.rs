@@ -1,10 +1,13 @@
 //! Scenes whose answer is known, each derived here and checked by an independent computation.
 //!
-//! Two kinds of answer: scenes, which say what the light is ([`cube`], [`integrating_sphere`], [`square_lamp`],
-//! [`ball_lens`], [`furnace`], [`rendering_equation`]) and write themselves as Mitsuba 3 XML from the same parameters;
+//! Two kinds of answer: scenes, which say what the light is and write themselves as Mitsuba 3 XML from the same parameters;
 //! and laws, which say what an estimator reads on photons that are right ([`fixed_radius_law`], [`nearest_law`],
-//! [`edge_laws`]). Metres, watts or lumens, double precision. The crate sees no other code of the project but its words
-//! for quantities, so that it can judge the rest.
+//! [`edge_laws`]) or how a surface scatters ([`scattering`]). Scenes: direct light ([`lamps`], [`square_lamp`]),
+//! interreflection ([`cube`], [`emitting_cube`], [`closed_room`], [`integrating_sphere`], [`furnace`], [`groove`]),
+//! specular paths ([`pane`], [`ball_lens`], [`paraboloid`], [`mirror_arc`], [`prism`]), participating media ([`medium`]),
+//! daylight ([`daylight`]); [`rendering_equation`] and [`eye`] stand by themselves. [`catalogue::ALL`] lists the scenes with what
+//! their meters must read. Metres, watts or lumens, double precision. The crate sees no other code of the project but its
+//! words for quantities, so that it can judge the rest.
 //!
 //! ```
 //! use photonlab_reference::{cube::Cube, edge_laws, nearest_law::{self, Counted}};
@@ -23,13 +26,16 @@ pub mod ball_lens;
 pub mod catalogue;
 pub mod closed_room;
 pub mod cube;
+pub mod daylight;
 pub mod edge_laws;
 pub mod emitting_cube;
+pub mod eye;
 pub mod fixed_radius_law;
 pub mod furnace;
 pub mod groove;
 pub mod integrating_sphere;
 pub mod lamps;
+pub mod medium;
 pub mod mirror_arc;
 mod mitsuba;
 pub mod nearest_law;

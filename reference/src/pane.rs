@@ -36,6 +36,11 @@ impl Pane {
         Ok(Pane { index })
     }
 
+    /// The refractive index.
+    pub fn index(&self) -> f64 {
+        self.index
+    }
+
     /// Transmitted share at this cosine of incidence for unpolarised light, without absorption.
     pub fn transmittance(&self, cosine: f64, polarisation: Polarisation) -> f64 {
         let through = |r: f64| (1.0 - r) / (1.0 + r);
@@ -69,11 +74,12 @@ impl Pane {
         draft.case(format!("{degrees} degrees, {}", name(plate)))
     }
 
-    /// The pane as the lid of a black tray under an environment of radiance 1, and a meter in the tray.
+    /// The pane as the lid of a closed black tray under an environment of radiance 1, and a meter in the tray. Without its
+    /// floor the tray would let light in from below, which the pane reflects onto the meter.
     pub fn diffuse_case(&self, plate: bool) -> Case {
         let mut draft = self.start(plate);
         draft.add(&mitsuba::constant_light(&[1.0]));
-        for wall in &Place::inside_box([-HALF, -HALF, 0.0], [HALF, HALF, GAP])[..4] {
+        for wall in &Place::inside_box([-HALF, -HALF, -GAP], [HALF, HALF, GAP])[..5] {
             draft.wall(*wall);
         }
         let value = PI * self.diffuse_transmittance(Polarisation::Reset);

@@ -15,10 +15,6 @@ pub(crate) fn along(a: Vector, t: f64, b: Vector) -> Vector {
     [0, 1, 2].map(|i| a[i] + t * b[i])
 }
 
-pub(crate) fn minus(a: Vector, b: Vector) -> Vector {
-    along(a, -1.0, b)
-}
-
 pub(crate) fn length(v: Vector) -> f64 {
     dot(v, v).sqrt()
 }

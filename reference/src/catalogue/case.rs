@@ -112,6 +112,13 @@ impl Draft {
         self.expect(&id, Reads::Radiance, value, uncertainty);
     }
 
+    /// The same inside the scene's medium.
+    pub(crate) fn radiance_in_fog(&mut self, origin: Vector, target: Vector, value: f64, uncertainty: f64) {
+        let id = format!("meter-{}", self.expected.len());
+        self.body += &mitsuba::radiance_meter_in_fog(&id, origin, target);
+        self.expect(&id, Reads::Radiance, &[value], uncertainty);
+    }
+
     /// The finished case.
     pub(crate) fn case(self, name: impl Into<String>) -> Case {
         let xml = mitsuba::scene_to_depth(self.depth, &self.body);

@@ -87,6 +87,8 @@ pub fn cases() -> Vec<Case> {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, SQRT_2};
+
     use super::*;
     use crate::lamps::strip::StripLamp;
     use crate::quadrature::Gauss;
@@ -95,11 +97,11 @@ mod tests {
     fn catalogue_values() {
         let endless = f64::INFINITY;
         for (h, l, isotropic, cosine) in [
-            (0.5, endless, 4.0, 3.1415927),
-            (1.0, endless, 2.0, 1.5707963),
-            (2.0, endless, 1.0, 0.78539816),
+            (0.5, endless, 4.0, PI),
+            (1.0, endless, 2.0, FRAC_PI_2),
+            (2.0, endless, 1.0, FRAC_PI_4),
             (1.0, 0.5, 0.89442719, 0.86364761),
-            (1.0, 1.0, 1.4142136, 1.2853982),
+            (1.0, 1.0, SQRT_2, 1.2853982),
             (1.0, 5.0, 1.9611614, 1.5657085),
         ] {
             assert!((line_irradiance(LineLaw::Isotropic, h, l) / isotropic - 1.0).abs() < 1e-7);

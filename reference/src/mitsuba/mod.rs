@@ -1,7 +1,9 @@
 //! Pieces of Mitsuba 3 scene files, so that each scene can be written from the parameters that its answer uses.
 
+mod fog;
 mod place;
 
+pub(crate) use fog::{Medium, fog_ball, fog_block, point_lamp_in_fog, radiance_meter_in_fog};
 pub(crate) use place::{Place, flat};
 
 /// Channel values as Mitsuba reads them: one grey value or three separated by commas.
@@ -83,6 +85,15 @@ pub(crate) const PERFECT_MIRROR: &str = "<bsdf type=\"conductor\"><string name=\
 pub(crate) fn constant_light(radiance: &[f64]) -> String {
     let radiance = channels(radiance);
     format!("  <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter>\n")
+}
+
+/// A sky over the plane z = 0 of this type (`overcast`: CIE traditional, 1:3; `cie1`: CIE general sky, type 1) with this
+/// radiance at the zenith, +z.
+pub(crate) fn sky(kind: &str, zenith: f64) -> String {
+    format!(
+        "  <emitter type=\"sky\"><string name=\"type\" value=\"{kind}\"/>\
+         <rgb name=\"zenith_radiance\" value=\"{zenith}\"/></emitter>\n"
+    )
 }
 
 /// Turns the shape it is put on into a lamp.

@@ -1,0 +1,4 @@
+//! Light of the sky.
+
+pub mod roof_opening;
+pub mod sky;
