@@ -22,6 +22,8 @@ use crate::{
 /// Confidence of every interval.
 const CONFIDENCE: f64 = 0.9999;
 
+/// Photons below which a counted reading is not judged.
+const FEWEST_PHOTONS: f64 = 1000.0;
 /// Share of an answer that rounding may cost in sums of millions of terms.
 const ROUNDING: f64 = 1e-9;
 
