@@ -6,7 +6,7 @@ use crate::FigureError;
 use crate::axes::{check, cut_points, horizontal, vertical};
 use crate::canvas::{self, Anchor, Canvas};
 use crate::legend::Legend;
-use crate::plot::{HEIGHT, LABEL, Plot};
+use crate::plot::{HEIGHT, LABEL, LEADING, Plot};
 use crate::style::{INK, PAPER, Style, styles};
 use crate::text;
 
@@ -18,8 +18,6 @@ const MARGIN: f64 = 14.0;
 const GAP: f64 = 10.0;
 /// Text size of the title.
 const TITLE: f64 = 18.0;
-/// Line height over text size.
-const LEADING: f64 = 1.35;
 
 /// Draws a figure as SVG text: complete, without scripts, styles or anything from outside.
 ///
@@ -67,7 +65,6 @@ impl<'a> Chart<'a> {
         // From the top: title, legend, the y axis' label, the plot, tick labels, the x axis' label.
         let words = block(TITLE, &title) + block(LABEL, &y_label) + legend.height();
         let top = MARGIN + words + 3.0 * GAP;
-        let height = (top + HEIGHT + 32.0 + block(LABEL, &x_label) + MARGIN).ceil();
 
         // Room for the tick labels at the left, and for half of the last one where it stands at the right end.
         let wide = |label: &str| text::width(label, LABEL);
@@ -75,6 +72,7 @@ impl<'a> Chart<'a> {
         let last = x.ticks.last().map_or(0.0, |tick| 0.5 * wide(&tick.label) * x.position(tick.at).powi(8));
         let (left, right) = (MARGIN + widest + GAP, WIDTH - MARGIN - last);
         let plot = Plot { named: !figure.x.names.is_empty(), x, y, left, right, top };
+        let height = (plot.bottom() + plot.further_label_lines() + 32.0 + block(LABEL, &x_label) + MARGIN).ceil();
         Ok(Chart { figure, styles, title, legend, plot, x_label, y_label, height })
     }
 
@@ -110,7 +108,13 @@ impl<'a> Chart<'a> {
         self.legend.draw(canvas, (MARGIN, below_title));
         write(&self.y_label, below_legend, LABEL, MARGIN, Anchor::Start);
         let middle = 0.5 * (self.plot.left + self.plot.right);
-        write(&self.x_label, self.plot.bottom() + 30.0, LABEL, middle, Anchor::Middle);
+        write(
+            &self.x_label,
+            self.plot.bottom() + self.plot.further_label_lines() + 30.0,
+            LABEL,
+            middle,
+            Anchor::Middle,
+        );
     }
 }
 

@@ -6,11 +6,14 @@ use crate::canvas::{Anchor, Canvas, Spot};
 use crate::legend::draw_arrow;
 use crate::scale::Scale;
 use crate::style::{GRID, INK, Style};
+use crate::text;
 
 /// Height of the plot in pixels.
 pub(crate) const HEIGHT: f64 = 330.0;
 /// Text size of ticks and axis labels in pixels.
 pub(crate) const LABEL: f64 = 15.0;
+/// Line height over text size.
+pub(crate) const LEADING: f64 = 1.35;
 
 /// Two axes and their place on the sheet, in pixels.
 pub(crate) struct Plot {
@@ -41,7 +44,10 @@ impl Plot {
             let x = self.spot_x(tick.at);
             canvas.line(&[(x, self.top), (x, bottom)], GRID, 1.0);
             canvas.line(&[(x, bottom), (x, bottom + 6.0)], INK, 1.2);
-            canvas.text(&tick.label, (x, bottom + 18.0), LABEL, Anchor::Middle, INK, false);
+            for (line, words) in self.x_label_lines(&tick.label).iter().enumerate() {
+                let y = bottom + 18.0 + line as f64 * LABEL * LEADING;
+                canvas.text(words, (x, y), LABEL, Anchor::Middle, INK, false);
+            }
         }
         for &value in &self.x.minor {
             canvas.line(&[(self.spot_x(value), bottom), (self.spot_x(value), bottom + 3.0)], INK, 1.0);
@@ -50,6 +56,20 @@ impl Plot {
             canvas.line(&[(self.left - 3.0, self.spot_y(value)), (self.left, self.spot_y(value))], INK, 1.0);
         }
         canvas.line(&[(self.left, self.top), (self.left, bottom), (self.right, bottom)], INK, 1.4);
+    }
+
+    /// A tick's label in lines: names share the axis' length, numbers stand in one line.
+    fn x_label_lines(&self, label: &str) -> Vec<String> {
+        match self.named {
+            true => text::wrap(label, LABEL, (self.right - self.left) / self.x.ticks.len() as f64 - 6.0),
+            false => vec![label.to_owned()],
+        }
+    }
+
+    /// Height of the tick labels below their first line, in pixels.
+    pub(crate) fn further_label_lines(&self) -> f64 {
+        let lines = self.x.ticks.iter().map(|tick| self.x_label_lines(&tick.label).len()).max();
+        lines.map_or(0.0, |lines| lines.saturating_sub(1) as f64 * LABEL * LEADING)
     }
 
     /// Marks with error bars.
