@@ -142,7 +142,13 @@ impl<const C: usize> PhotonMap<C> {
                     position: self.tree.point(index),
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                self.tree.nearest_accepted(at.position, k, f32::INFINITY, |p| counts(p, &at, &tests), &mut scratch.found);
+                self.tree.nearest_accepted(
+                    at.position,
+                    k,
+                    f32::INFINITY,
+                    |p| counts(p, &at, &tests),
+                    &mut scratch.found,
+                );
                 let full = scratch.found.len() == k;
                 scratch.found.farthest_squared().filter(|_| full).map(f32::sqrt)
             })

@@ -79,12 +79,20 @@ impl<V: Visitor, M: Meter> Walk<'_, V, M> {
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, points: std::ops::Range<usize>) {
         self.meter.leaf(points.len());
+        if points.start % BLOCK == 0 && points.len() <= BLOCK {
+            return self.block::<L>(points.start / BLOCK, u16::MAX >> (BLOCK - points.len()));
+        }
         for block in points.start / BLOCK..points.end.div_ceil(BLOCK) {
-            let distances = L::to_points(&self.blocks[block], &self.query);
-            let mask = L::within(distances, self.reach) & lanes_in(&points, block);
-            if mask != 0 {
-                self.visitor.visit::<L>(block * BLOCK, mask, distances);
-            }
+            self.block::<L>(block, lanes_in(&points, block));
+        }
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, block: usize, lanes: u16) {
+        let distances = L::to_points(&self.blocks[block], &self.query);
+        let mask = L::within(distances, self.reach) & lanes;
+        if mask != 0 {
+            self.visitor.visit::<L>(block * BLOCK, mask, distances);
         }
     }
 }
@@ -108,15 +116,16 @@ impl<V: Visitor, M: Meter> Task for Walk<'_, V, M> {
             }
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
-            if self.nodes[node].is_inner(lane) {
+            let parent = &self.nodes[node];
+            if parent.is_inner(lane) {
                 if mask != 0 {
                     pending[depth] = (node as u32, mask);
                     depth += 1;
                 }
-                node = self.nodes[node].child(lane);
+                node = parent.child(lane);
                 mask = self.open::<L>(node);
             } else {
-                self.leaf::<L>(self.nodes[node].points(lane));
+                self.leaf::<L>(parent.points(lane));
             }
         }
     }

@@ -15,7 +15,8 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     /// Neighbouring queries share what they read and bound each other's search. Runs on rayon's current thread pool,
     /// each thread with memory of its own; the answers do not depend on it where `ask` leaves them to the tree.
     pub fn batch<T: Send>(&self, queries: &[[f32; 3]], ask: impl Fn(usize, &mut Neighbours) -> T + Sync) -> Vec<T> {
-        let mut order: Vec<u64> = queries.par_iter().zip(0..queries.len()).map(|(&q, i)| self.place(q) | i as u64).collect();
+        let mut order: Vec<u64> =
+            queries.par_iter().zip(0..queries.len()).map(|(&q, i)| self.place(q) | i as u64).collect();
         order.par_sort_unstable();
         let numbered = |&key: &u64| (key & u64::from(u32::MAX)) as usize;
         let mut answers: Vec<(usize, T)> = order

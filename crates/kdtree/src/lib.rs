@@ -37,6 +37,7 @@ mod branch;
 mod candidates;
 mod distance;
 mod error;
+mod item;
 mod lanes;
 mod median;
 mod nearest;

@@ -1,9 +1,10 @@
 //! Building by the surface-area rule, eq. 2 of the paper.
 
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 
 use crate::bounds::Bounds;
 use crate::branch::Branch;
+use crate::item::{Item, item};
 use crate::rule::EmptyCost;
 use crate::sweep::{Cut, best_cut};
 
@@ -16,7 +17,7 @@ pub(crate) fn depth_limit(count: usize) -> usize {
 }
 
 /// The tree of at least one point, and the original indices in the order of its leaves.
-pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> (Branch, Vec<u32>) {
+pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> (Branch, Vec<Item>) {
     let mut sorted: [Vec<u32>; 3] = std::array::from_fn(|axis| sorted_along(points, axis));
     let mut scratch = vec![0; points.len()];
     let [x, y, z] = &mut sorted;
@@ -24,7 +25,7 @@ pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usiz
     let cell = orders.tight_box(points);
     let root = Builder { points, empty_cost, leaf_limit }.grow(cell, orders, depth_limit(points.len()));
     let [order, ..] = sorted;
-    (root, order)
+    (root, order.par_iter().map(|&i| item(points, i)).collect())
 }
 
 fn sorted_along(points: &[[f32; 3]], axis: usize) -> Vec<u32> {
@@ -192,6 +193,6 @@ mod tests {
     fn a_leaf_keeps_the_order_given() {
         let points: Vec<[f32; 3]> = (0..99).map(|i| [-(i as f32), 0.0, (i % 7) as f32]).collect();
         let (_, order) = build(&points, EmptyCost::Constant(f64::INFINITY), 1);
-        assert_eq!(order, (0..99).collect::<Vec<_>>());
+        assert_eq!(order.iter().map(crate::item::index).collect::<Vec<_>>(), (0..99).collect::<Vec<_>>());
     }
 }

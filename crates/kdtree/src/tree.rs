@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::block::{BLOCK, Block};
 use crate::error::BuildError;
+use crate::item::{self, Item};
 use crate::lanes::Instructions;
 use crate::node::Node;
 use crate::rule::{DEFAULT_LEAF_LIMIT, SplitRule};
@@ -54,9 +55,9 @@ impl<P: Copy + Send + Sync> KdTree<P> {
             SplitRule::Median => median::build(&points, leaf_limit),
             SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit),
         };
-        let block = |run: &[u32]| Block::of(run.iter().map(|&i| points[i as usize]));
+        let block = |run: &[Item]| Block::of(run.iter().map(|&[x, y, z, _]| [x, y, z]));
         let blocks = order.par_chunks(BLOCK).with_min_len(256).map(block).collect();
-        let payload = order.par_iter().with_min_len(4096).map(|&i| payload[i as usize]).collect();
+        let payload = order.par_iter().with_min_len(4096).map(|item| payload[item::index(item) as usize]).collect();
         Ok(Self { nodes: root.into_nodes(), blocks, payload, instructions })
     }
 
@@ -78,7 +79,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         self.payload.is_empty()
     }
 
-    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in the order given to `build`.
+    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in an order that the points and the rule fix.
     ///
     /// # Panics
     ///

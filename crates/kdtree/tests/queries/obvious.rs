@@ -90,14 +90,7 @@ fn assert_within(tree: &KdTree<usize>, points: &[[f32; 3]], query: [f32; 3], rad
     assert_eq!(count, inside.len());
 }
 
-fn assert_nearest(
-    tree: &KdTree<usize>,
-    points: &[[f32; 3]],
-    query: [f32; 3],
-    k: usize,
-    radius: f32,
-    modulus: usize,
-) {
+fn assert_nearest(tree: &KdTree<usize>, points: &[[f32; 3]], query: [f32; 3], k: usize, radius: f32, modulus: usize) {
     let accept = |i: usize| i.is_multiple_of(modulus);
     let expected = loop_nearest(tree, points, query, k, radius, accept);
     let check = |found: &mut Neighbours| {
