@@ -16,6 +16,7 @@ mod native;
 mod ours;
 mod photons;
 mod report;
+mod rules;
 
 use photonlab_kdtree::{Instructions, SplitRule};
 
@@ -74,6 +75,7 @@ fn main() {
 
         let mut ours = ours::Ours::build(set, SplitRule::default()).with_instructions(instructions());
         println!("{}: {:?}", set.name, ours.tree.shape());
+        rules::compare(set);
         let mut kiddo = kiddo::Kiddo::build(set);
         for k in [50, 100, 200] {
             let radius = cases::typical_radius(&ours, set, k);
