@@ -24,14 +24,29 @@ pub(crate) fn key(item: &Item, axis: usize) -> u64 {
     u64::from(ordered) << 32 | u64::from(index(item))
 }
 
-/// The tight box; four lanes at once, of which the last means nothing.
+/// The tight box. Four points at once, or each minimum would wait for the one before; the fourth lanes mean nothing.
 pub(crate) fn bounds(items: &[Item]) -> Bounds {
-    let (mut lo, mut hi) = ([f32::INFINITY; 4], [f32::NEG_INFINITY; 4]);
-    for item in items {
-        for lane in 0..4 {
-            lo[lane] = if item[lane] < lo[lane] { item[lane] } else { lo[lane] };
-            hi[lane] = if item[lane] > hi[lane] { item[lane] } else { hi[lane] };
+    let (mut lo, mut hi) = ([[f32::INFINITY; 4]; 4], [[f32::NEG_INFINITY; 4]; 4]);
+    let (fours, rest) = items.as_chunks::<4>();
+    for four in fours {
+        for i in 0..4 {
+            extend(&mut lo[i], &mut hi[i], &four[i]);
+        }
+    }
+    let ends = [lo, hi];
+    let (mut lo, mut hi) = (lo[0], hi[0]);
+    for item in rest.iter().chain(ends.as_flattened()) {
+        if item[0].is_finite() {
+            extend(&mut lo, &mut hi, item);
         }
     }
     Bounds { lo: [lo[0], lo[1], lo[2]], hi: [hi[0], hi[1], hi[2]] }
+}
+
+#[inline(always)]
+fn extend(lo: &mut Item, hi: &mut Item, item: &Item) {
+    for lane in 0..4 {
+        lo[lane] = if item[lane] < lo[lane] { item[lane] } else { lo[lane] };
+        hi[lane] = if item[lane] > hi[lane] { item[lane] } else { hi[lane] };
+    }
 }

@@ -8,7 +8,7 @@ use crate::visit_cost::{Reach, VisitCost};
 pub const DEFAULT_LEAF_LIMIT: usize = 16;
 
 /// Where a node is cut. The answers of queries do not depend on it; their speed does.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SplitRule {
     /// At the median point along the widest axis of the node's tight box (the first such axis on a tie).
     ///
@@ -16,7 +16,6 @@ pub enum SplitRule {
     /// made of whole blocks of 16 points, above 256 points of whole 256s, so that blocks and nodes are full; below,
     /// they differ by at most one point. Only a node whose points all coincide becomes a
     /// leaf above the limit.
-    #[default]
     Median,
     /// At the plane that minimises `f(x) = Ec + S_left * N_left + S_right * N_right`, eq. 2 of Zhdanov and
     /// Krimmel, "Physically correct models for calculating the illuminance formed by optical systems, with
@@ -59,6 +58,14 @@ pub enum EmptyCost {
     Constant(f64),
     /// In units of the surface area of the node at hand, so it counts points and the scale drops out.
     NodeAreas(f64),
+}
+
+/// [`VisitCost::BallInSpace`] for 100 nearest: in a caustic a query tests a quarter fewer points than over medians, on
+/// walls and in a volume as many. Its build takes twice the median's time.
+impl Default for SplitRule {
+    fn default() -> Self {
+        Self::Binned(VisitCost::BallInSpace(Reach::Nearest(100)))
+    }
 }
 
 impl SplitRule {
