@@ -106,7 +106,7 @@ impl<V: Visitor, M: Meter> Walk<'_, V, M> {
     #[inline(always)]
     fn leaf<L: Lanes>(&mut self, state: &mut V::State<L>, points: std::ops::Range<usize>) {
         self.meter.leaf(points.len());
-        if points.start % BLOCK == 0 && points.len() <= BLOCK {
+        if points.start.is_multiple_of(BLOCK) && points.len() <= BLOCK {
             return self.block::<L>(state, points.start / BLOCK, u16::MAX >> (BLOCK - points.len()));
         }
         for block in points.start / BLOCK..points.end.div_ceil(BLOCK) {
