@@ -21,7 +21,9 @@ impl Choose for Binned {
             let mut left = 0;
             for edge in 1..BINS {
                 left += counts[axis][edge - 1] as usize;
-                if left == 0 || left == items.len() {
+                // Across a gap the counts stay, so a cost linear in the edge is least at its ends; the sheet's is near it.
+                let in_gap = counts[axis][edge - 1] == 0 && counts[axis][edge] == 0;
+                if in_gap || left == 0 || left == items.len() {
                     continue;
                 }
                 let (mut low, mut high) = (extent, extent);
