@@ -92,9 +92,9 @@ pub(crate) fn constant_light(radiance: &[f64]) -> String {
 pub(crate) fn sky(general: Option<u8>, zenith: f64) -> String {
     let law = match general {
         None => "<string name=\"distribution\" value=\"overcast\"/>".to_owned(),
-        Some(kind) => format!(
-            "<string name=\"distribution\" value=\"general\"/><integer name=\"cie_type\" value=\"{kind}\"/>"
-        ),
+        Some(kind) => {
+            format!("<string name=\"distribution\" value=\"general\"/><integer name=\"cie_type\" value=\"{kind}\"/>")
+        }
     };
     format!("  <emitter type=\"sky\">{law}<rgb name=\"radiance\" value=\"{zenith}\"/></emitter>\n")
 }
