@@ -1,0 +1,140 @@
+//! The figures of split rules held against one another.
+
+use photonlab_measure::{Axis, FigureData, Interval, Point, Series, SeriesKind};
+
+use super::{
+    cpu_clock::CPU_SECONDS,
+    search::Cost,
+    split_rules::RULES,
+    split_trials::{Plan, Tried},
+};
+
+/// All figures; `times` are CPU seconds per query by set and rule.
+pub(super) fn figures(plan: &Plan, all: &[Vec<Tried>], times: &[Vec<[f64; 2]>], confidence: f64) -> Vec<FigureData> {
+    let middle = plan.k.len() / 2;
+    let chart = Chart { plan, all, confidence };
+    vec![
+        chart.by_set("tested", "Photons tested by split rule, over the median's", middle, |cost| cost.tested),
+        chart.by_set("nodes", "Nodes opened by split rule, over the median's", middle, |cost| cost.nodes),
+        chart.by_count("neighbours", "k", plan.k, 0),
+        chart.by_count("radii", "photons that the radius typically holds", plan.radius_counts, plan.k.len()),
+        chart.build(),
+        chart.query_time(times),
+    ]
+}
+
+struct Chart<'a> {
+    plan: &'a Plan<'a>,
+    all: &'a [Vec<Tried>],
+    confidence: f64,
+}
+
+impl Chart<'_> {
+    /// The trials at the most photons of each set.
+    fn largest(&self) -> impl Iterator<Item = &[Tried]> {
+        self.all.iter().map(|tried| &tried[tried.len() - RULES.len()..])
+    }
+
+    fn sets(&self) -> Vec<&'static str> {
+        self.largest().map(|set| set[0].set.title()).collect()
+    }
+
+    fn ratio(&self, set: &[Tried], rule: usize, search: usize, of: fn(&Cost) -> f64) -> Option<Interval> {
+        set[rule].ratio(&set[0], search, of).interval(self.confidence)
+    }
+
+    fn caption(&self, what: &str) -> String {
+        format!(
+            "{what} {} photons, {} replicates of {} queries, each at a photon of the same kind; bars: {:.3} % intervals \
+             (Sidak, 99 % for the table).",
+            self.plan.photons.iter().max().unwrap_or(&0),
+            self.plan.replicates,
+            self.plan.queries,
+            100.0 * self.confidence
+        )
+    }
+
+    fn by_set(&self, id: &str, title: &str, search: usize, of: fn(&Cost) -> f64) -> FigureData {
+        let series = (1..RULES.len()).map(|rule| {
+            let at = |set: usize| set as f64 + 1.0 + 0.12 * (rule as f64 - 3.0);
+            let points = self.largest().enumerate();
+            let points = points.filter_map(|(i, set)| Some(Point::measured(at(i), self.ratio(set, rule, search, of)?)));
+            Series { label: RULES[rule].0.into(), kind: SeriesKind::Measured, points: points.collect() }
+        });
+        let what = format!(
+            "Search for the {}. The exact sweep's leaves hold fewer than sixteen photons, so it opens more of them.",
+            self.plan.names()[search]
+        );
+        FigureData {
+            id: id.into(),
+            title: title.into(),
+            caption: self.caption(&what),
+            x: Axis::named("photon set", self.sets()),
+            y: Axis::linear("over the median rule"),
+            series: series.collect(),
+        }
+    }
+
+    /// The paper's cost at full leaves over what is asked for.
+    fn by_count(&self, id: &str, x: &str, counts: &[usize], first: usize) -> FigureData {
+        const PAPER_FULL: usize = 2;
+        let series = self.largest().enumerate().map(|(number, set)| {
+            // Side by side, for bars at one place hide one another.
+            let aside = 1.04_f64.powi(number as i32);
+            let points = counts.iter().enumerate().filter_map(|(i, &count)| {
+                let ratio = self.ratio(set, PAPER_FULL, first + i, |cost| cost.tested)?;
+                Some(Point::measured(count as f64 * aside, ratio))
+            });
+            Series { label: set[0].set.title().into(), kind: SeriesKind::Measured, points: points.collect() }
+        });
+        FigureData {
+            id: id.into(),
+            title: "Photons tested by the paper's cost at full leaves, over the median's".into(),
+            caption: self.caption("Marks of one place stand side by side."),
+            x: Axis::log(x),
+            y: Axis::linear("over the median rule"),
+            series: series.collect(),
+        }
+    }
+
+    fn build(&self) -> FigureData {
+        // The second set is the Cornell box, whose walls and boxes are neither all even nor all aligned.
+        let tried = &self.all[1];
+        let series = (0..RULES.len()).map(|rule| {
+            let sizes = tried.iter().filter(|own| own.rule == rule);
+            let point = |own: &Tried| Point::new(own.photons as f64, 1e9 * own.best_build() / own.photons as f64);
+            Series { label: RULES[rule].0.into(), kind: SeriesKind::Measured, points: sizes.map(point).collect() }
+        });
+        FigureData {
+            id: "build".into(),
+            title: format!("Time to build the tree, {}", tried[0].set.title()),
+            caption: format!(
+                "Best of {} builds, the rules in turn. No bars: no verdict rests on it. {CPU_SECONDS}.",
+                self.plan.replicates
+            ),
+            x: Axis::log("photons"),
+            y: Axis::log("CPU nanoseconds a photon"),
+            series: series.collect(),
+        }
+    }
+
+    fn query_time(&self, times: &[Vec<[f64; 2]>]) -> FigureData {
+        let series = (0..RULES.len()).map(|rule| {
+            let at = |set: usize| set as f64 + 1.0 + 0.12 * (rule as f64 - 2.5);
+            let points = times.iter().enumerate().map(|(set, times)| Point::new(at(set), 1e6 * times[rule][0]));
+            Series { label: RULES[rule].0.into(), kind: SeriesKind::Measured, points: points.collect() }
+        });
+        FigureData {
+            id: "query-time".into(),
+            title: format!("Time of a query for the {}", self.plan.names()[self.plan.k.len() / 2]),
+            caption: format!(
+                "{} photons; queries in random order, one thread, best of several rounds, the rules in turn. No bars: no \
+                 verdict rests on it. {CPU_SECONDS}.",
+                self.plan.photons.iter().max().unwrap_or(&0)
+            ),
+            x: Axis::named("photon set", self.sets()),
+            y: Axis::linear("CPU microseconds a query"),
+            series: series.collect(),
+        }
+    }
+}

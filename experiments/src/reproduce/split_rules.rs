@@ -1,0 +1,30 @@
+//! The split rules that are held against one another, with the names they have in figures.
+
+use photonlab_kdtree::{EmptyCost, KdTree, Reach, SplitRule, VisitCost};
+
+use super::cpu_clock::CpuClock;
+
+/// The neighbours that rules with a reach are made for.
+const REACH: Reach = Reach::Nearest(100);
+
+/// Eq. 2 of the paper with its empty node at no cost, so that the leaf limit alone stops it.
+pub(super) const PAPER: SplitRule = SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(0.0) };
+
+/// Every rule, the median first and the paper's next.
+pub(super) const RULES: [(&str, SplitRule); 6] = [
+    ("median", SplitRule::Median),
+    ("paper's S N, exact sweep", PAPER),
+    ("paper's S N, full leaves", SplitRule::Binned(VisitCost::SurfaceArea)),
+    ("voxel volume", SplitRule::Binned(VisitCost::VoxelVolume(REACH))),
+    ("grown box, in space", SplitRule::Binned(VisitCost::BallInSpace(REACH))),
+    ("grown box, on a sheet", SplitRule::Binned(VisitCost::BallOnSheet(REACH))),
+];
+
+/// A tree of bare points and the CPU seconds that it took.
+pub(super) fn timed_tree(points: &[[f32; 3]], rule: SplitRule, limit: usize) -> anyhow::Result<(KdTree<()>, f64)> {
+    let points = points.to_vec();
+    let payload = vec![(); points.len()];
+    let clock = CpuClock::start();
+    let tree = KdTree::build_with_leaf_limit(points, payload, rule, limit)?;
+    Ok((tree, clock.seconds()))
+}
