@@ -19,6 +19,7 @@ mod report;
 mod search;
 mod split_charts;
 mod split_rules;
+mod split_times;
 mod split_trials;
 mod strategy;
 mod table;

@@ -6,11 +6,18 @@ use super::{
     cpu_clock::CPU_SECONDS,
     search::Cost,
     split_rules::RULES,
+    split_times::BuildTimes,
     split_trials::{Plan, Tried},
 };
 
 /// All figures; `times` are CPU seconds per query by set and rule.
-pub(super) fn figures(plan: &Plan, all: &[Vec<Tried>], times: &[Vec<[f64; 2]>], confidence: f64) -> Vec<FigureData> {
+pub(super) fn figures(
+    plan: &Plan,
+    all: &[Vec<Tried>],
+    times: &[Vec<[f64; 2]>],
+    builds: &BuildTimes,
+    confidence: f64,
+) -> Vec<FigureData> {
     let middle = plan.k.len() / 2;
     let chart = Chart { plan, all, confidence };
     vec![
@@ -18,7 +25,7 @@ pub(super) fn figures(plan: &Plan, all: &[Vec<Tried>], times: &[Vec<[f64; 2]>], 
         chart.by_set("nodes", "Nodes opened by split rule, over the median's", middle, |cost| cost.nodes),
         chart.by_count("neighbours", "k", plan.k, 0),
         chart.by_count("radii", "photons that the radius typically holds", plan.radius_counts, plan.k.len()),
-        chart.build(),
+        build(builds),
         chart.query_time(times),
     ]
 }
@@ -40,7 +47,7 @@ impl Chart<'_> {
     }
 
     fn ratio(&self, set: &[Tried], rule: usize, search: usize, of: fn(&Cost) -> f64) -> Option<Interval> {
-        set[rule].ratio(&set[0], search, of).interval(self.confidence)
+        set[rule].ratio(&set[0], search, of, self.confidence)
     }
 
     fn caption(&self, what: &str) -> String {
@@ -97,27 +104,6 @@ impl Chart<'_> {
         }
     }
 
-    fn build(&self) -> FigureData {
-        // The second set is the Cornell box, whose walls and boxes are neither all even nor all aligned.
-        let tried = &self.all[1];
-        let series = (0..RULES.len()).map(|rule| {
-            let sizes = tried.iter().filter(|own| own.rule == rule);
-            let point = |own: &Tried| Point::new(own.photons as f64, 1e9 * own.best_build() / own.photons as f64);
-            Series { label: RULES[rule].0.into(), kind: SeriesKind::Measured, points: sizes.map(point).collect() }
-        });
-        FigureData {
-            id: "build".into(),
-            title: format!("Time to build the tree, {}", tried[0].set.title()),
-            caption: format!(
-                "Best of {} builds, the rules in turn. No bars: no verdict rests on it. {CPU_SECONDS}.",
-                self.plan.replicates
-            ),
-            x: Axis::log("photons"),
-            y: Axis::log("CPU nanoseconds a photon"),
-            series: series.collect(),
-        }
-    }
-
     fn query_time(&self, times: &[Vec<[f64; 2]>]) -> FigureData {
         let series = (0..RULES.len()).map(|rule| {
             let at = |set: usize| set as f64 + 1.0 + 0.12 * (rule as f64 - 2.5);
@@ -136,5 +122,24 @@ impl Chart<'_> {
             y: Axis::linear("CPU microseconds a query"),
             series: series.collect(),
         }
+    }
+}
+
+fn build(times: &BuildTimes) -> FigureData {
+    let series = RULES.iter().enumerate().map(|(rule, &(name, _))| {
+        let point = |(i, &n): (usize, &usize)| Point::new(n as f64, 1e9 * times.best(rule, i) / n as f64);
+        let points = times.photons.iter().enumerate().map(point).collect();
+        Series { label: name.into(), kind: SeriesKind::Measured, points }
+    });
+    FigureData {
+        id: "build".into(),
+        title: format!("Time to build the tree, {}", times.set.title()),
+        caption: format!(
+            "One thread, best of {} rounds, the rules in turn. No bars: no verdict rests on it. {CPU_SECONDS}.",
+            times.rounds[0][0].len()
+        ),
+        x: Axis::log("photons"),
+        y: Axis::log("CPU nanoseconds a photon"),
+        series: series.collect(),
     }
 }

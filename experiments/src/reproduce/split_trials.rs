@@ -6,7 +6,7 @@ use photonlab_measure::{Interval, Replicates, fit_log_log};
 use super::{
     photon_set::PhotonSet,
     search::{Cost, Search, radius_holding},
-    split_rules::{RULES, timed_tree},
+    split_rules::{RULES, bare_tree},
 };
 
 /// What is run.
@@ -25,7 +25,6 @@ pub(super) struct Tried {
     pub(super) photons: usize,
     /// Its place in [`RULES`].
     pub(super) rule: usize,
-    pub(super) build_seconds: Vec<f64>,
     pub(super) leaf_size: Replicates,
     /// Median over leaves of the box's longest edge over the second; of full leaves alone.
     pub(super) slenderness: Option<Replicates>,
@@ -55,15 +54,14 @@ impl Plan<'_> {
         Ok(tried)
     }
 
-    /// One replicate of one size; the rules take turns, so that a slow spell of the machine meets all of them.
+    /// One replicate of one size: every rule meets the same photons and queries.
     fn compare(&self, points: &[[f32; 3]], queries: &[[f32; 3]], row: &mut [Tried]) -> anyhow::Result<()> {
         let mut searches = Vec::new();
         for (tried, &(_, rule)) in row.iter_mut().zip(&RULES) {
-            let (tree, seconds) = timed_tree(points, rule, DEFAULT_LEAF_LIMIT)?;
+            let tree = bare_tree(points, rule, DEFAULT_LEAF_LIMIT)?;
             if searches.is_empty() {
                 searches = self.searches(&tree, queries);
             }
-            tried.build_seconds.push(seconds);
             tried.leaf_size.push(points.len() as f64 / tree.shape().leaves as f64);
             if let Some(slenderness) = &mut tried.slenderness {
                 slenderness.push(median_slenderness(&tree));
@@ -86,12 +84,7 @@ impl Tried {
         // The exact sweep cuts anywhere; the other rules fill their leaves.
         let slenderness = (rule != 1).then(Replicates::new);
         let searches = vec![Vec::new(); plan.names().len()];
-        Self { set, photons, rule, build_seconds: vec![], leaf_size: Replicates::new(), slenderness, searches }
-    }
-
-    /// CPU seconds of the best build.
-    pub(super) fn best_build(&self) -> f64 {
-        self.build_seconds.iter().copied().fold(f64::INFINITY, f64::min)
+        Self { set, photons, rule, leaf_size: Replicates::new(), slenderness, searches }
     }
 
     /// The mean of what `of` says of a search.
@@ -99,22 +92,30 @@ impl Tried {
         self.searches[search].iter().map(of).collect()
     }
 
-    /// The same over that of another rule, replicate by replicate.
-    pub(super) fn ratio(&self, other: &Tried, search: usize, of: fn(&Cost) -> f64) -> Replicates {
+    /// The same over that of another rule: the geometric mean over replicates, with an interval that is even in logarithms,
+    /// for ratios far from one scatter in proportion.
+    pub(super) fn ratio(
+        &self,
+        other: &Tried,
+        search: usize,
+        of: fn(&Cost) -> f64,
+        confidence: f64,
+    ) -> Option<Interval> {
         let pairs = self.searches[search].iter().zip(&other.searches[search]);
-        pairs.map(|(own, theirs)| of(own) / of(theirs)).collect()
+        let logarithm: Replicates = pairs.map(|(own, theirs)| (of(own) / of(theirs)).ln()).collect();
+        let Interval { value, low, high, confidence } = logarithm.interval(confidence)?;
+        Some(Interval { value: value.exp(), low: low.exp(), high: high.exp(), confidence })
     }
 }
 
-/// Exponent in the number of photons of a value with one entry a replicate; its interval is that of the replicates' own
-/// exponents.
-pub(super) fn exponent(sizes: &[&Tried], of: impl Fn(&Tried, usize) -> f64, confidence: f64) -> Option<Interval> {
+/// Exponent of a search's cost in the number of photons; its interval is that of the replicates' own exponents.
+pub(super) fn exponent(sizes: &[&Tried], search: usize, of: fn(&Cost) -> f64, confidence: f64) -> Option<Interval> {
     let photons: Vec<f64> = sizes.iter().map(|tried| tried.photons as f64).collect();
-    let replicates = sizes.first()?.build_seconds.len();
     let one = |replicate: usize| {
-        let values: Vec<f64> = sizes.iter().map(|tried| of(tried, replicate)).collect();
+        let values: Vec<f64> = sizes.iter().map(|tried| of(&tried.searches[search][replicate])).collect();
         Some(fit_log_log(&photons, &values).ok()?.slope)
     };
+    let replicates = sizes.first()?.searches[search].len();
     (0..replicates).map(one).collect::<Option<Replicates>>()?.interval(confidence)
 }
 

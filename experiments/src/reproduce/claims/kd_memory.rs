@@ -7,7 +7,6 @@ use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
-    cpu_clock::CpuClock,
     photon_set::PhotonSet,
     split_rules::PAPER,
     table::row,
@@ -35,8 +34,6 @@ struct Held {
     /// Bytes of a position with its payload.
     photon_bytes: usize,
     shape: TreeShape,
-    draw_seconds: f64,
-    build_seconds: f64,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
@@ -46,11 +43,9 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     for set in SETS {
         for replicate in 0..p.replicates {
             for &photons in &p.photons {
-                let clock = CpuClock::start();
                 let points = set.draw(photons, p.seed, replicate)?;
-                let drawn = clock.seconds();
-                all.extend(hold::<1>(set, &points, drawn)?);
-                all.extend(hold::<3>(set, &points, drawn)?);
+                all.extend(hold::<1>(set, &points)?);
+                all.extend(hold::<3>(set, &points)?);
             }
         }
     }
@@ -64,18 +59,16 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
 }
 
 /// The trees of one payload by every rule.
-fn hold<const C: usize>(set: PhotonSet, points: &[[f32; 3]], draw_seconds: f64) -> anyhow::Result<Vec<Held>> {
+fn hold<const C: usize>(set: PhotonSet, points: &[[f32; 3]]) -> anyhow::Result<Vec<Held>> {
     let down = PackedDirection::pack([0.0, 0.0, -1.0]);
     let up = PackedDirection::pack([0.0, 0.0, 1.0]);
     let photon = Photon { flux: [1.0; C], direction: down, normal: up, class: PathClass::Direct, segments: 1 };
     let rules = [("median", SplitRule::Median), ("default", SplitRule::default()), ("paper's S N, exact sweep", PAPER)];
     let one = |(rule, split)| {
         let (points, photons) = (points.to_vec(), points.len());
-        let clock = CpuClock::start();
         let tree = KdTree::build(points, vec![photon; photons], split)?;
-        let build_seconds = clock.seconds();
         let photon_bytes = size_of::<[f32; 3]>() + size_of::<Photon<C>>();
-        Ok(Held { set, rule, photons, photon_bytes, shape: tree.shape(), draw_seconds, build_seconds })
+        Ok(Held { set, rule, photons, photon_bytes, shape: tree.shape() })
     };
     rules.into_iter().map(one).collect()
 }
@@ -101,8 +94,6 @@ impl Held {
             ("nodes", self.shape.nodes.into()),
             ("leaves", self.shape.leaves.into()),
             ("depth", self.shape.depth.into()),
-            ("draw_cpu_seconds", self.draw_seconds.into()),
-            ("build_cpu_seconds", self.build_seconds.into()),
         ])
     }
 }
@@ -136,21 +127,15 @@ fn conclude(all: &[Held], comparisons: &[Comparison]) -> (Verdict, String) {
     let rgb = all.iter().map(|held| held.photon_bytes).max().unwrap_or(0);
     let share = |size: usize| 100.0 * range(all, |held| used(held) && held.photon_bytes == size, Held::share).high;
     let paper = range(all, |held| !used(held), Held::overhead);
-    let most = all.iter().map(|held| held.photons).max().unwrap_or(0);
-    let traced = |held: &Held| held.photons == most && held.set != PhotonSet::Volume && held.rule == "default";
-    let time = range(all, traced, |held| held.build_seconds / held.draw_seconds);
     let reason = format!(
         "median and default trees add {:.2} to {:.2} bytes a photon to {grey} (grey) or {rgb} (RGB): at most {:.0} and {:.0} %. The \
-         paper's rule, whose leaves are not full, adds {:.1} to {:.1}. Building {most} photons takes {:.2} to {:.2} of the CPU time \
-         that tracing them takes (single builds, not judged)",
+         paper's rule, whose leaves are not full, adds {:.1} to {:.1}",
         bytes.low,
         bytes.high,
         share(grey),
         share(rgb),
         paper.low,
-        paper.high,
-        time.low,
-        time.high
+        paper.high
     );
     match comparisons.iter().all(|c| c.holds == Some(true)) {
         true => (Verdict::Holds, reason),

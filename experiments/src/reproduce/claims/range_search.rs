@@ -13,7 +13,7 @@ use crate::reproduce::{
     field::stream,
     photon_set::PhotonSet,
     search::{Cost, Search, radius_holding},
-    split_rules::timed_tree,
+    split_rules::bare_tree,
     table::{Table, row},
 };
 
@@ -94,7 +94,7 @@ impl Grown {
         for replicate in 0..p.replicates {
             let all = set.draw(most + p.queries, p.seed, replicate)?;
             for (i, &photons) in p.photons.iter().enumerate() {
-                let (tree, _) = timed_tree(&all[..photons], SplitRule::Median, DEFAULT_LEAF_LIMIT)?;
+                let tree = bare_tree(&all[..photons], SplitRule::Median, DEFAULT_LEAF_LIMIT)?;
                 let queries = &all[most..];
                 let held = Search::Radius(radius_holding(&tree, queries, p.held));
                 let nearest = p.k.iter().map(|&k| Search::Nearest(k));
@@ -238,7 +238,7 @@ fn equally_far(photons: usize, p: &Parameters) -> anyhow::Result<[f64; 2]> {
         [rim * angle.cos(), rim * angle.sin(), z].map(|x| x as f32)
     };
     let points: Vec<[f32; 3]> = (0..photons).map(on_sphere).collect();
-    let (tree, _) = timed_tree(&points, SplitRule::Median, DEFAULT_LEAF_LIMIT)?;
+    let tree = bare_tree(&points, SplitRule::Median, DEFAULT_LEAF_LIMIT)?;
     let cost = Search::Nearest(p.k[0]).cost(&tree, &[[0.0; 3]]);
     Ok([cost.tested / photons as f64, cost.nodes / tree.shape().nodes as f64])
 }

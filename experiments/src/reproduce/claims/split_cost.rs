@@ -1,15 +1,14 @@
 //! `split-cost`: the paper's cost of a plane against the median and against costs made for balls.
 
-use photonlab_kdtree::DEFAULT_LEAF_LIMIT;
 use photonlab_measure::{Comparison, Expected, Interval, Record, Row, Verdict, sidak_level};
 use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
     photon_set::PhotonSet,
-    search::{Search, radius_holding},
     split_charts,
-    split_rules::{RULES, timed_tree},
+    split_rules::RULES,
+    split_times::{BuildTimes, Stopwatch},
     split_trials::{Plan, Tried, exponent},
     table::row,
 };
@@ -34,7 +33,8 @@ struct Parameters {
     radius_counts: Vec<usize>,
     timed_queries: usize,
     rounds: usize,
-    /// A ratio known worse than this (half-width) says nothing.
+    least_seconds: f64,
+    /// A ratio whose interval holds 1 says nothing if it is wider than this (half-width).
     precision: f64,
 }
 
@@ -48,6 +48,8 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         k: &p.k,
         radius_counts: &p.radius_counts,
     };
+    let watch = Stopwatch { seed: p.seed, queries: p.timed_queries, rounds: p.rounds, least_seconds: p.least_seconds };
+    let middle = |counts: &[usize]| counts[counts.len() / 2];
     let names = plan.names();
     let confidence = 1.0 - sidak_level(1.0 - FAMILY, 2 * SETS.len() * names.len());
     let mut found = Findings { seeds: vec![p.seed], ..Findings::default() };
@@ -55,7 +57,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     for set in SETS {
         let tried = plan.run(set)?;
         found.rows.extend(rows(&tried, &names, confidence));
-        times.push(query_times(set, &p)?);
+        times.push(watch.queries(set, p.photons[p.photons.len() - 1], middle(&p.k), middle(&p.radius_counts))?);
         all.push(tried);
     }
     for tried in &all {
@@ -66,7 +68,9 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     for (set, times) in SETS.iter().zip(&times) {
         found.rows.extend(times.iter().zip(RULES).map(|(&time, (rule, _))| time_row(set.title(), rule, time)));
     }
-    found.figures = split_charts::figures(&plan, &all, &times, confidence);
+    let builds = watch.builds(PhotonSet::CornellBox, &p.photons)?;
+    found.rows.extend((0..RULES.len()).flat_map(|rule| build_rows(&builds, rule, confidence)));
+    found.figures = split_charts::figures(&plan, &all, &times, &builds, confidence);
     let (verdict, reason) = conclude(&p, &names, &largest, confidence);
     Ok(context.record(found, verdict, reason))
 }
@@ -84,44 +88,21 @@ fn compare(largest: &[Tried], names: &[String], confidence: f64) -> Vec<Comparis
     let grown = Expected { value: 1.0, low: 0.4, high: 1.05, source: "Steiner's formula for the grown box".into() };
     let one = |rule: usize, expected: &Expected, search: usize| {
         let label = format!("{}, {}: tested by {}, over median", largest[0].set.title(), names[search], RULES[rule].0);
-        let ratio = largest[rule].ratio(&largest[0], search, |cost| cost.tested);
-        Comparison::judge(label, "1", expected.clone(), ratio.interval(confidence))
+        let ratio = largest[rule].ratio(&largest[0], search, |cost| cost.tested, confidence);
+        Comparison::judge(label, "1", expected.clone(), ratio)
     };
     let searches = 0..names.len();
     searches.clone().map(|s| one(PAPER_FULL, &paper, s)).chain(searches.map(|s| one(GROWN, &grown, s))).collect()
 }
 
-/// CPU seconds per query of every rule at the most photons, for the middle k and for the middle radius: the best of
-/// several rounds in which the rules take turns.
-fn query_times(set: PhotonSet, p: &Parameters) -> anyhow::Result<Vec<[f64; 2]>> {
-    let photons = p.photons[p.photons.len() - 1];
-    let all = set.draw(photons + p.timed_queries, p.seed, 0)?;
-    let (points, queries) = all.split_at(photons);
-    let tree = |(_, rule)| Ok(timed_tree(points, rule, DEFAULT_LEAF_LIMIT)?.0);
-    let trees = RULES.into_iter().map(tree).collect::<anyhow::Result<Vec<_>>>()?;
-    let middle = |counts: &[usize]| counts[counts.len() / 2];
-    let radius = radius_holding(&trees[0], &queries[..p.queries.min(queries.len())], middle(&p.radius_counts));
-    let searches = [Search::Nearest(middle(&p.k)), Search::Radius(radius)];
-    let mut best = vec![[f64::INFINITY; 2]; trees.len()];
-    for _ in 0..p.rounds {
-        for (best, tree) in best.iter_mut().zip(&trees) {
-            for (best, search) in best.iter_mut().zip(searches) {
-                *best = best.min(search.seconds(tree, queries));
-            }
-        }
-    }
-    Ok(best)
-}
-
 /// The paper's cost at leaves as full as the median's, and what that rests on.
 fn conclude(p: &Parameters, names: &[String], largest: &[&[Tried]], confidence: f64) -> (Verdict, String) {
-    let ratio =
-        |set: &[Tried], rule: usize, search| set[rule].ratio(&set[0], search, |cost| cost.tested).interval(confidence);
+    let ratio = |set: &[Tried], rule: usize, search| set[rule].ratio(&set[0], search, |cost| cost.tested, confidence);
     let ratios = |set: &[Tried]| (0..names.len()).map(|s| ratio(set, PAPER_FULL, s)).collect::<Option<Vec<Interval>>>();
     let Some(all) = largest.iter().map(|set| ratios(set)).collect::<Option<Vec<_>>>() else {
         return (Verdict::NotMeasured, "one replicate has no interval".into());
     };
-    if all.iter().flatten().any(|ratio| ratio.half_width() > p.precision) {
+    if all.iter().flatten().any(|ratio| ratio.contains(1.0) && ratio.half_width() > p.precision) {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
     }
     let words = largest.iter().zip(&all).map(|(set, ratios)| {
@@ -134,15 +115,17 @@ fn conclude(p: &Parameters, names: &[String], largest: &[&[Tried]], confidence: 
             ratios.len()
         )
     });
-    let slender = |rule: usize| largest[0][rule].slenderness.and_then(|s| s.mean()).unwrap_or(f64::NAN);
+    let slender = |set: &[Tried], rule: usize| set[rule].slenderness.and_then(|s| s.mean()).unwrap_or(f64::NAN);
+    let slivers = largest
+        .iter()
+        .map(|set| format!("{:.1} in {} ({:.1})", slender(set, PAPER_FULL), set[0].set.title(), slender(set, 0)));
     let reason = format!(
-        "photons tested by the paper's cost at full leaves, over those of the median, at {} photons: {}. On a flat wall S is \
-         shared alike however it is cut, so leaves become slivers: in CUBE the typical leaf is {:.1} times as long as wide, \
-         the median's {:.1}",
+        "photons tested by the paper's cost at full leaves, over those of the median, at {} photons: {}. On a flat sheet S is \
+         shared alike whichever way a piece is cut, so leaves become slivers: the typical leaf's length over its width is {} \
+         (the median's)",
         p.photons[p.photons.len() - 1],
         words.collect::<Vec<_>>().join("; "),
-        slender(PAPER_FULL),
-        slender(0),
+        slivers.collect::<Vec<_>>().join(", "),
     );
     let fewer = all.iter().filter(|set| set.iter().all(|ratio| ratio.high < 1.0)).count();
     let verdict = match fewer {
@@ -164,17 +147,16 @@ fn rows(tried: &[Tried], names: &[String], confidence: f64) -> Vec<Row> {
     }
     for rule in 0..RULES.len() {
         let sizes: Vec<&Tried> = tried.iter().filter(|own| own.rule == rule).collect();
-        let build = exponent(&sizes, |own, replicate| own.build_seconds[replicate], confidence);
-        rows.push(slope_row(sizes[0], "build CPU seconds", build));
         for (search, name) in names.iter().enumerate() {
-            let tested = exponent(&sizes, |own, replicate| own.searches[search][replicate].tested, confidence);
-            rows.push(slope_row(sizes[0], &format!("photons tested, {name}"), tested));
+            let tested = exponent(&sizes, search, |cost| cost.tested, confidence);
+            rows.push(slope_row(sizes[0].set, rule, &format!("photons tested, {name}"), tested));
         }
     }
     rows
 }
 
 fn cost_row(own: &Tried, median: &Tried, search: usize, name: &str) -> Row {
+    let ratio = |of| own.ratio(median, search, of, 0.99).map(|ratio| ratio.value);
     let (nodes, tested) = (own.mean(search, |cost| cost.nodes), own.mean(search, |cost| cost.tested));
     row([
         ("set", own.set.title().into()),
@@ -187,18 +169,17 @@ fn cost_row(own: &Tried, median: &Tried, search: usize, name: &str) -> Row {
         ("nodes_std_error", nodes.std_error().into()),
         ("tested", tested.mean().into()),
         ("tested_std_error", tested.std_error().into()),
-        ("nodes_over_median", own.ratio(median, search, |cost| cost.nodes).mean().into()),
-        ("tested_over_median", own.ratio(median, search, |cost| cost.tested).mean().into()),
+        ("nodes_over_median", ratio(|cost| cost.nodes).into()),
+        ("tested_over_median", ratio(|cost| cost.tested).into()),
         ("leaf_size", own.leaf_size.mean().into()),
         ("leaf_slenderness", own.slenderness.and_then(|s| s.mean()).into()),
-        ("build_cpu_seconds", own.best_build().into()),
     ])
 }
 
-fn slope_row(own: &Tried, of: &str, slope: Option<Interval>) -> Row {
+fn slope_row(set: PhotonSet, rule: usize, of: &str, slope: Option<Interval>) -> Row {
     row([
-        ("set", own.set.title().into()),
-        ("rule", RULES[own.rule].0.into()),
+        ("set", set.title().into()),
+        ("rule", RULES[rule].0.into()),
         ("slope_in_photons_of", of.into()),
         ("slope", slope.map(|s| s.value).into()),
         ("slope_low", slope.map(|s| s.low).into()),
@@ -213,4 +194,18 @@ fn time_row(set: &str, rule: &str, [nearest, radius]: [f64; 2]) -> Row {
         ("cpu_seconds_per_nearest_query", nearest.into()),
         ("cpu_seconds_per_radius_query", radius.into()),
     ])
+}
+
+fn build_rows(times: &BuildTimes, rule: usize, confidence: f64) -> Vec<Row> {
+    let one = |(i, &photons): (usize, &usize)| {
+        row([
+            ("set", times.set.title().into()),
+            ("rule", RULES[rule].0.into()),
+            ("photons", photons.into()),
+            ("build_cpu_seconds", times.best(rule, i).into()),
+        ])
+    };
+    let slope = times.exponent(rule, confidence);
+    let slope = slope_row(times.set, rule, "build CPU seconds", slope);
+    times.photons.iter().enumerate().map(one).chain([slope]).collect()
 }

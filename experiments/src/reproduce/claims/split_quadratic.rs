@@ -11,7 +11,7 @@ use crate::reproduce::{
     context::{Context, Findings},
     cpu_clock::CPU_SECONDS,
     photon_set::PhotonSet,
-    split_rules::{PAPER, timed_tree},
+    split_rules::{PAPER, bare_tree, build_seconds},
     table::row,
 };
 
@@ -76,25 +76,15 @@ fn measure(set: PhotonSet, p: &Parameters) -> anyhow::Result<(Builds, Builds, us
         let points = set.draw(most, p.seed, replicate)?;
         for (builds, rule) in [(&mut counted, COUNTED), (&mut swept, PAPER)] {
             for (&photons, seconds) in builds.photons.iter().zip(&mut builds.seconds) {
-                seconds.push(mean_build(&points[..photons], rule, p.least_seconds)?);
+                seconds.push(build_seconds(&points[..photons], rule, p.least_seconds)?);
             }
         }
         for &photons in &p.counted {
-            let tree = |rule| anyhow::Ok(timed_tree(&points[..photons], rule, DEFAULT_LEAF_LIMIT)?.0);
+            let tree = |rule| bare_tree(&points[..photons], rule, DEFAULT_LEAF_LIMIT);
             alike += usize::from(tree(COUNTED)? == tree(PAPER)?);
         }
     }
     Ok((counted, swept, alike))
-}
-
-/// Mean over builds that together take the least time.
-fn mean_build(points: &[[f32; 3]], rule: SplitRule, least: f64) -> anyhow::Result<f64> {
-    let (mut sum, mut builds) = (0.0, 0);
-    while sum < least {
-        sum += timed_tree(points, rule, DEFAULT_LEAF_LIMIT)?.1;
-        builds += 1;
-    }
-    Ok(sum / f64::from(builds))
 }
 
 impl Builds {

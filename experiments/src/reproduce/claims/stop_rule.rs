@@ -10,7 +10,7 @@ use crate::reproduce::{
     context::{Context, Findings},
     photon_set::PhotonSet,
     search::{Cost, Search},
-    split_rules::timed_tree,
+    split_rules::bare_tree,
     table::{Table, row},
 };
 
@@ -87,7 +87,7 @@ impl Trees {
         limit: usize,
         asked: Option<(Search, &[[f32; 3]])>,
     ) -> anyhow::Result<()> {
-        let (tree, _) = timed_tree(points, rule, limit)?;
+        let tree = bare_tree(points, rule, limit)?;
         let shape = tree.shape();
         self.leaf.push(points.len() as f64 / shape.leaves as f64);
         self.largest.push(shape.largest_leaf as f64);
