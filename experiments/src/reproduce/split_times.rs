@@ -1,6 +1,5 @@
 //! CPU time of building and of asking, by split rule; no verdict rests on it.
 
-use photonlab_kdtree::DEFAULT_LEAF_LIMIT;
 use photonlab_measure::{Interval, Replicates, fit_log_log};
 
 use super::{
@@ -34,8 +33,9 @@ impl Stopwatch {
         let mut rounds = vec![vec![Vec::new(); photons.len()]; RULES.len()];
         for _ in 0..self.rounds {
             for (i, &count) in photons.iter().enumerate() {
-                for (rounds, (_, rule)) in rounds.iter_mut().zip(RULES) {
-                    rounds[i].push(lone.install(|| build_seconds(&all[..count], rule, self.least_seconds))?);
+                for (rounds, named) in rounds.iter_mut().zip(&RULES) {
+                    let build = || build_seconds(&all[..count], named.rule, named.limit, self.least_seconds);
+                    rounds[i].push(lone.install(build)?);
                 }
             }
         }
@@ -52,7 +52,7 @@ impl Stopwatch {
     ) -> anyhow::Result<Vec<[f64; 2]>> {
         let all = set.draw(photons + self.queries, self.seed, 0)?;
         let (points, queries) = all.split_at(photons);
-        let trees = RULES.map(|(_, rule)| bare_tree(points, rule, DEFAULT_LEAF_LIMIT));
+        let trees = RULES.map(|named| bare_tree(points, named.rule, named.limit));
         let trees = trees.into_iter().collect::<anyhow::Result<Vec<_>>>()?;
         let searches = [Search::Nearest(k), Search::Radius(radius_holding(&trees[0], queries, held))];
         let mut best = vec![[f64::INFINITY; 2]; trees.len()];

@@ -1,6 +1,8 @@
 //! Every split rule on the same photons with the same queries, over sets, sizes and replicates.
 
-use photonlab_kdtree::{DEFAULT_LEAF_LIMIT, KdTree};
+use std::ops::Range;
+
+use photonlab_kdtree::KdTree;
 use photonlab_measure::{Interval, Replicates, fit_log_log};
 
 use super::{
@@ -57,8 +59,8 @@ impl Plan<'_> {
     /// One replicate of one size: every rule meets the same photons and queries.
     fn compare(&self, points: &[[f32; 3]], queries: &[[f32; 3]], row: &mut [Tried]) -> anyhow::Result<()> {
         let mut searches = Vec::new();
-        for (tried, &(_, rule)) in row.iter_mut().zip(&RULES) {
-            let tree = bare_tree(points, rule, DEFAULT_LEAF_LIMIT)?;
+        for (tried, named) in row.iter_mut().zip(&RULES) {
+            let tree = bare_tree(points, named.rule, named.limit)?;
             if searches.is_empty() {
                 searches = self.searches(&tree, queries);
             }
@@ -92,17 +94,20 @@ impl Tried {
         self.searches[search].iter().map(of).collect()
     }
 
-    /// The same over that of another rule: the geometric mean over replicates, with an interval that is even in logarithms,
-    /// for ratios far from one scatter in proportion.
+    /// The mean of what `of` says of some searches, over that of another rule: the geometric mean over searches and
+    /// replicates, with an interval that is even in logarithms, for ratios far from one scatter in proportion.
     pub(super) fn ratio(
         &self,
         other: &Tried,
-        search: usize,
+        searches: Range<usize>,
         of: fn(&Cost) -> f64,
         confidence: f64,
     ) -> Option<Interval> {
-        let pairs = self.searches[search].iter().zip(&other.searches[search]);
-        let logarithm: Replicates = pairs.map(|(own, theirs)| (of(own) / of(theirs)).ln()).collect();
+        let one = |replicate: usize| {
+            let ratio = |s: usize| of(&self.searches[s][replicate]) / of(&other.searches[s][replicate]);
+            searches.clone().map(|s| ratio(s).ln()).sum::<f64>() / searches.len() as f64
+        };
+        let logarithm: Replicates = (0..self.searches[0].len()).map(one).collect();
         let Interval { value, low, high, confidence } = logarithm.interval(confidence)?;
         Some(Interval { value: value.exp(), low: low.exp(), high: high.exp(), confidence })
     }

@@ -273,7 +273,7 @@ fn in_vain_chart(p: &Parameters, sets: &[Grown], table: &Table) -> FigureData {
         [
             grown.fixed().series(grown.set.title(), &p.photons, vain, table),
             Series {
-                label: "grown leaf of sixteen, far from all ends".into(),
+                label: format!("{}: law of the grown leaf", grown.set.title()),
                 kind: SeriesKind::Predicted,
                 points: law,
             },
@@ -283,7 +283,8 @@ fn in_vain_chart(p: &Parameters, sets: &[Grown], table: &Table) -> FigureData {
         id: "in-vain".into(),
         title: "Photons tested in vain at a fixed radius".into(),
         caption: format!(
-            "Tested less found; the radius holds {} photons at the smallest n, far from the ends of the set. {} replicates of {} \
+            "Tested less found; the radius holds {} photons at the smallest n, far from the ends of the set. The law takes leaves for cubes of sixteen photons far from all ends: \
+             tight boxes and queries near an end test fewer, in the same proportion at every n. {} replicates of {} \
              queries; {}.",
             p.fixed_held,
             p.replicates,
