@@ -27,8 +27,14 @@ pub(super) fn figures(
         chart.by_set("nodes", "Nodes opened by split rule", "nodes opened, over the median's", middle, |cost| {
             cost.nodes
         }),
-        chart.by_count("neighbours", "k", plan.k, 0),
-        chart.by_count("radii", "photons that the radius typically holds", plan.radius_counts, plan.k.len()),
+        chart.by_count("neighbours", "k nearest", "k", plan.k, 0),
+        chart.by_count(
+            "radii",
+            "fixed radii",
+            "photons that the radius typically holds",
+            plan.radius_counts,
+            plan.k.len(),
+        ),
         build(builds),
         chart.query_time(times),
     ]
@@ -57,7 +63,7 @@ impl Chart<'_> {
     fn caption(&self, what: &str) -> String {
         format!(
             "{what} {} photons, {} replicates of {} queries, each at a photon of the same kind; bars: {:.3} % intervals \
-             (Sidak, 99 % for the table).",
+             each, as in the table.",
             self.plan.photons.iter().max().unwrap_or(&0),
             self.plan.replicates,
             self.plan.queries,
@@ -73,7 +79,7 @@ impl Chart<'_> {
             Series { label: RULES[rule].name.into(), kind: SeriesKind::Measured, points: points.collect() }
         });
         let what = format!(
-            "Search for the {}; all trees have leaves of sixteen photons on average. Below the line is better than the median.",
+            "Search for the {}; all trees have leaves of sixteen photons on average. Below 1 is fewer than the median's.",
             self.plan.names()[search]
         );
         FigureData {
@@ -82,12 +88,12 @@ impl Chart<'_> {
             caption: self.caption(&what),
             x: Axis::named("photon set", self.sets()),
             y: Axis::log(y),
-            series: series.chain([as_good([0.5, self.all.len() as f64 + 0.5])]).collect(),
+            series: series.collect(),
         }
     }
 
     /// The paper's cost over what is asked for.
-    fn by_count(&self, id: &str, x: &str, counts: &[usize], first: usize) -> FigureData {
+    fn by_count(&self, id: &str, asked: &str, x: &str, counts: &[usize], first: usize) -> FigureData {
         const PAPER: usize = 1;
         let ends = [0.9 * counts[0] as f64, 1.1 * counts[counts.len() - 1] as f64];
         let series = self.largest().enumerate().map(|(number, set)| {
@@ -101,7 +107,7 @@ impl Chart<'_> {
         });
         FigureData {
             id: id.into(),
-            title: "Photons tested by the paper's cost, by what is asked for".into(),
+            title: format!("Photons tested by the paper's cost, {asked}"),
             caption: self.caption("Exact sweep; all trees have leaves of sixteen photons on average. Marks of one place stand side by side."),
             x: Axis::log(x),
             y: Axis::log("photons tested, over the median's"),
@@ -119,7 +125,8 @@ impl Chart<'_> {
             id: "query-time".into(),
             title: format!("Time of a query for the {}", self.plan.names()[self.plan.k.len() / 2]),
             caption: format!(
-                "{} photons; queries in random order, one thread, best of several rounds, the rules in turn. No bars: no \
+                "{} photons; queries in random order, one thread, best of several rounds, the rules in turn. The \
+                 exact sweep's leaves straddle the blocks of sixteen in which photons are stored. No bars: no \
                  verdict rests on it. {CPU_SECONDS}.",
                 self.plan.photons.iter().max().unwrap_or(&0)
             ),

@@ -31,7 +31,8 @@ impl Stopwatch {
         let lone = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
         let all = set.draw(photons.iter().copied().max().unwrap_or(0), self.seed, 0)?;
         let mut rounds = vec![vec![Vec::new(); photons.len()]; RULES.len()];
-        for _ in 0..self.rounds {
+        // Twice as many as for queries: their scatter gives an exponent its interval.
+        for _ in 0..2 * self.rounds {
             for (i, &count) in photons.iter().enumerate() {
                 for (rounds, named) in rounds.iter_mut().zip(&RULES) {
                     let build = || build_seconds(&all[..count], named.rule, named.limit, self.least_seconds);

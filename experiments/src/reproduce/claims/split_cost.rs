@@ -15,6 +15,8 @@ use crate::reproduce::{
 
 /// The family-wise confidence of the whole table.
 const FAMILY: f64 = 0.99;
+/// The confidence of slopes, which are not judged.
+const SLOPES: f64 = 0.95;
 const SETS: [PhotonSet; 4] = [PhotonSet::Cube, PhotonSet::CornellBox, PhotonSet::BallLens, PhotonSet::Volume];
 /// In [`RULES`]: the paper's cost by exact sweep, with the full leaves of the other rules, and the cost of the grown box.
 const PAPER: usize = 1;
@@ -58,7 +60,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let (mut largest, mut all, mut times) = (Vec::new(), Vec::new(), Vec::new());
     for set in SETS {
         let tried = plan.run(set)?;
-        found.rows.extend(rows(&tried, &names, confidence));
+        found.rows.extend(rows(&tried, &names));
         times.push(watch.queries(set, p.photons[p.photons.len() - 1], middle(&p.k), middle(&p.radius_counts))?);
         all.push(tried);
     }
@@ -71,9 +73,9 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         found.rows.extend(times.iter().zip(&RULES).map(|(&time, named)| time_row(set.title(), named.name, time)));
     }
     let builds = watch.builds(PhotonSet::CornellBox, &p.photons)?;
-    found.rows.extend((0..RULES.len()).flat_map(|rule| build_rows(&builds, rule, confidence)));
+    found.rows.extend((0..RULES.len()).flat_map(|rule| build_rows(&builds, rule)));
     found.figures = split_charts::figures(&plan, &all, &times, &builds, confidence);
-    let (verdict, reason) = conclude(&p, &largest, confidence);
+    let (verdict, reason) = conclude(&p, &largest, &found.comparisons, confidence);
     Ok(context.record(found, verdict, reason))
 }
 
@@ -100,33 +102,37 @@ fn compare(set: &[Tried], confidence: f64) -> Vec<Comparison> {
 }
 
 /// The paper's cost beside the median at leaves of one mean size, and what that rests on.
-fn conclude(p: &Parameters, largest: &[&[Tried]], confidence: f64) -> (Verdict, String) {
+fn conclude(p: &Parameters, largest: &[&[Tried]], comparisons: &[Comparison], confidence: f64) -> (Verdict, String) {
     let ratios = |rule: usize| largest.iter().map(|set| tested(set, rule, confidence)).collect::<Option<Vec<_>>>();
-    let (Some(swept), Some(full), Some(grown)) = (ratios(PAPER), ratios(PAPER_FULL), ratios(GROWN)) else {
+    let (Some(swept), Some(grown)) = (ratios(PAPER), ratios(GROWN)) else {
         return (Verdict::NotMeasured, "one replicate has no interval".into());
     };
     if swept.iter().any(|ratio| ratio.contains(1.0) && ratio.half_width() > p.precision) {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
     }
-    let words = |ratios: &[Interval]| {
+    let words = |ratios: &[Interval], chosen: &dyn Fn(&Interval) -> bool| {
         let one = |(set, r): (&&[Tried], &Interval)| {
-            format!("{} {:.2} ({:.2} to {:.2})", set[0].set.title(), r.value, r.low, r.high)
+            let title = set[0].set.title();
+            chosen(r).then(|| format!("{title} {:.2} ({:.2} to {:.2})", r.value, r.low, r.high))
         };
-        largest.iter().zip(ratios).map(one).collect::<Vec<_>>().join(", ")
+        let all: Vec<String> = largest.iter().zip(ratios).filter_map(one).collect();
+        if all.is_empty() { "nowhere".into() } else { all.join(", ") }
     };
     let slender = |set: &[Tried], rule: usize| set[rule].slenderness.and_then(|s| s.mean()).unwrap_or(f64::NAN);
     let slivers = largest
         .iter()
         .map(|set| format!("{} {:.1} ({:.1})", set[0].set.title(), slender(set, PAPER_FULL), slender(set, 0)));
     let reason = format!(
-        "photons tested over those of the median, {} photons, leaves of one mean size: by the paper's cost {}; by the same with \
-         full leaves {}; by the cost of the grown box {}. On a flat sheet S is shared alike whichever way a piece is cut, so full \
-         leaves become slivers, typical length over width: {} (the median's)",
+        "photons tested by the paper's cost over those of the median, {} photons, leaves of one mean size: fewer in {}; as many \
+         in {}; more in {}. On a flat sheet S is shared alike whichever way a piece is cut, so with full leaves these become \
+         slivers, typical length over width: {} (the median's). The cost of the grown box: {}{}",
         p.photons[p.photons.len() - 1],
-        words(&swept),
-        words(&full),
-        words(&grown),
+        words(&swept, &|r| r.high < 1.0),
+        words(&swept, &|r| r.contains(1.0)),
+        words(&swept, &|r| r.low > 1.0),
         slivers.collect::<Vec<_>>().join(", "),
+        words(&grown, &|_| true),
+        other_than_expected(comparisons),
     );
     let verdict = match swept.iter().filter(|ratio| ratio.high < 1.0).count() {
         0 => Verdict::DoesNotHold,
@@ -136,7 +142,13 @@ fn conclude(p: &Parameters, largest: &[&[Tried]], confidence: f64) -> (Verdict, 
     (verdict, reason)
 }
 
-fn rows(tried: &[Tried], names: &[String], confidence: f64) -> Vec<Row> {
+/// What was foreseen wrongly is said, whatever the verdict.
+fn other_than_expected(comparisons: &[Comparison]) -> String {
+    let missed: Vec<&str> = comparisons.iter().filter(|c| c.holds == Some(false)).map(|c| c.label.as_str()).collect();
+    if missed.is_empty() { String::new() } else { format!(". Other than expected: {}", missed.join("; ")) }
+}
+
+fn rows(tried: &[Tried], names: &[String]) -> Vec<Row> {
     let mut rows = Vec::new();
     for sizes in tried.chunks(RULES.len()) {
         for own in sizes {
@@ -148,7 +160,7 @@ fn rows(tried: &[Tried], names: &[String], confidence: f64) -> Vec<Row> {
     for rule in 0..RULES.len() {
         let sizes: Vec<&Tried> = tried.iter().filter(|own| own.rule == rule).collect();
         for (search, name) in names.iter().enumerate() {
-            let tested = exponent(&sizes, search, |cost| cost.tested, confidence);
+            let tested = exponent(&sizes, search, |cost| cost.tested, SLOPES);
             rows.push(slope_row(sizes[0].set, rule, &format!("photons tested, {name}"), tested));
         }
     }
@@ -184,6 +196,7 @@ fn slope_row(set: PhotonSet, rule: usize, of: &str, slope: Option<Interval>) -> 
         ("slope", slope.map(|s| s.value).into()),
         ("slope_low", slope.map(|s| s.low).into()),
         ("slope_high", slope.map(|s| s.high).into()),
+        ("slope_confidence", SLOPES.into()),
     ])
 }
 
@@ -196,7 +209,7 @@ fn time_row(set: &str, rule: &str, [nearest, radius]: [f64; 2]) -> Row {
     ])
 }
 
-fn build_rows(times: &BuildTimes, rule: usize, confidence: f64) -> Vec<Row> {
+fn build_rows(times: &BuildTimes, rule: usize) -> Vec<Row> {
     let one = |(i, &photons): (usize, &usize)| {
         row([
             ("set", times.set.title().into()),
@@ -205,7 +218,7 @@ fn build_rows(times: &BuildTimes, rule: usize, confidence: f64) -> Vec<Row> {
             ("build_cpu_seconds", times.best(rule, i).into()),
         ])
     };
-    let slope = times.exponent(rule, confidence);
+    let slope = times.exponent(rule, SLOPES);
     let slope = slope_row(times.set, rule, "build CPU seconds", slope);
     times.photons.iter().enumerate().map(one).chain([slope]).collect()
 }
