@@ -284,7 +284,7 @@ fn in_vain_chart(p: &Parameters, sets: &[Grown], table: &Table) -> FigureData {
         title: "Photons tested in vain at a fixed radius".into(),
         caption: format!(
             "Tested less found; the radius holds {} photons at the smallest n, far from the ends of the set. The law takes leaves for cubes of sixteen photons far from all ends: \
-             tight boxes and queries near an end test fewer, in the same proportion at every n. {} replicates of {} \
+             tight boxes and queries near an end test fewer. {} replicates of {} \
              queries; {}.",
             p.fixed_held,
             p.replicates,
