@@ -2,7 +2,9 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::{Rgb, Sky};
+use photonlab_photometry::Spectrum;
+
+use crate::Sky;
 
 /// Lamps without a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +16,7 @@ pub enum Emitter {
         /// Position in metres.
         position: DVec3,
         /// Radiant or luminous intensity where the pattern is 1, W/sr or cd.
-        intensity: Rgb,
+        intensity: Spectrum,
         /// How the intensity depends on direction.
         pattern: Pattern,
     },
@@ -25,7 +27,7 @@ pub enum Emitter {
         /// Unit vector along which the light travels.
         direction: DVec3,
         /// Irradiance on a plane across the direction, W/m^2 or lx.
-        irradiance: Rgb,
+        irradiance: Spectrum,
     },
     /// Light from all directions, from infinity; at most one in a scene.
     Environment {
@@ -34,6 +36,20 @@ pub enum Emitter {
         /// Its radiance by direction.
         light: EnvironmentLight,
     },
+}
+
+impl Emitter {
+    /// True if it emits nothing.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Emitter::Point { intensity, .. } => intensity.is_black(),
+            Emitter::Directional { irradiance, .. } => irradiance.is_black(),
+            Emitter::Environment { light, .. } => match light {
+                EnvironmentLight::Constant { radiance } | EnvironmentLight::Sky { radiance, .. } => radiance.is_black(),
+                EnvironmentLight::Map(map) => map.pixels.iter().all(|pixel| *pixel == [0.0; 3]),
+            },
+        }
+    }
 }
 
 /// How the intensity of a point source depends on direction, 1 in the brightest.
@@ -65,12 +81,12 @@ pub enum EnvironmentLight {
     /// The same from everywhere (Mitsuba `constant`).
     Constant {
         /// Radiance.
-        radiance: Rgb,
+        radiance: Spectrum,
     },
     /// A sky by law (extension `sky`).
     Sky {
         /// Radiance at the zenith.
-        radiance: Rgb,
+        radiance: Spectrum,
         /// Relative luminance.
         sky: Sky,
     },
@@ -89,6 +105,13 @@ pub struct SkyMap {
     pub pixels: Vec<[f32; 3]>,
     /// A rotation from the picture's own axes, in which the left edge looks along -z and columns turn towards +x.
     pub to_world: DMat3,
+}
+
+impl SkyMap {
+    /// True if every pixel is grey.
+    pub fn is_grey(&self) -> bool {
+        self.pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2])
+    }
 }
 
 impl std::fmt::Debug for SkyMap {
