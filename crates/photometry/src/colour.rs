@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// Channels of a scene with data by wavelength: enough that a pass sees a smooth spectrum well (its error falls as this to
 /// the power -1.5), few enough that a photon stays small.
-pub const WAVELENGTHS: usize = 8;
+pub const WAVELENGTHS: usize = 16;
 
 /// Which channels a scene carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
