@@ -8,6 +8,7 @@ mod accelerator;
 mod ball;
 mod cell;
 mod description;
+pub mod luminaire;
 mod needs;
 mod parallelogram;
 mod primitive;

@@ -38,6 +38,7 @@ mod walk;
 use std::path::Path;
 
 pub use error::SceneError;
+pub(crate) use names::quote;
 
 use crate::Scene;
 use load::Loader;
