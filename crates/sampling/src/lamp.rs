@@ -239,7 +239,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &photonlab_scene::Emitter
     match emitter {
         photonlab_scene::Emitter::Point { id, position, intensity, pattern } => {
             let intensity = Colour::from_rgb(*intensity);
-            let kind = LampKind::Point { position: *position, intensity, pattern: *pattern };
+            let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
             Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
         }
         photonlab_scene::Emitter::Environment { id, light } => {

@@ -17,6 +17,7 @@ mod scatter;
 mod specular;
 mod spherical_rectangle;
 mod stream;
+mod tabulated;
 pub mod warp;
 
 pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};

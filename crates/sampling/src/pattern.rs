@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use photonlab_scene::Pattern;
 
-use crate::{Stream, warp};
+use crate::{Stream, tabulated, warp};
 
 /// Intensity in a direction over the lamp's stated intensity.
 pub(crate) fn relative(pattern: &Pattern, direction: DVec3) -> f64 {
@@ -13,6 +13,9 @@ pub(crate) fn relative(pattern: &Pattern, direction: DVec3) -> f64 {
         Pattern::Isotropic => 1.0,
         Pattern::Cosine { axis, exponent } => direction.dot(*axis).max(0.0).powf(*exponent),
         Pattern::Spot { axis, beam, cutoff } => in_spot(direction.angle_between(*axis), *beam, *cutoff),
+        Pattern::Table { table, to_world } => {
+            table.intensity_along(to_world.transpose() * direction) / table.brightest()
+        }
     }
 }
 
@@ -42,6 +45,7 @@ pub(crate) fn integral(pattern: &Pattern) -> f64 {
             };
             TAU * (even + falling)
         }
+        Pattern::Table { table, .. } => table.flux() / table.brightest(),
     }
 }
 
@@ -63,6 +67,7 @@ pub(crate) fn draw(pattern: &Pattern, stream: &mut Stream) -> DVec3 {
                 return direction;
             }
         },
+        Pattern::Table { table, to_world } => *to_world * tabulated::draw(table, stream),
     }
 }
 

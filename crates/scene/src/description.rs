@@ -1,8 +1,11 @@
 //! What a scene file says, in world units, checked but not yet prepared for ray casting.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
 use photonlab_photometry::{Channels, UnitSystem};
 
+use crate::luminaire::IntensityTable;
 use crate::sky::Sky;
 
 /// A colour as the file gives it; grey if its three numbers are equal. Unit: that of the parameter.
@@ -203,7 +206,7 @@ pub enum Emitter {
 }
 
 /// How the intensity of a point source depends on direction, 1 in the brightest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// The same in all directions.
     Isotropic,
@@ -222,6 +225,13 @@ pub enum Pattern {
         beam: f64,
         /// Half-angle beyond which there is nothing, in radians, at least `beam`.
         cutoff: f64,
+    },
+    /// In proportion to a luminaire's table (extension `ies`).
+    Table {
+        /// Its intensities; the pattern is 1 at the brightest.
+        table: Arc<IntensityTable>,
+        /// A rotation from the lamp's own axes, which [`crate::luminaire`] explains.
+        to_world: DMat3,
     },
 }
 

@@ -17,6 +17,7 @@ mod film;
 mod index;
 mod integrator;
 mod load;
+mod luminaire;
 mod metal;
 mod names;
 mod number;

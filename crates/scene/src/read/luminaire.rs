@@ -1,0 +1,64 @@
+//! Lamps from the files that makers publish: the extension `ies`.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use crate::luminaire::{IntensityTable, read_luminaire};
+use crate::{Emitter, Pattern};
+
+use super::element::Element;
+use super::emitter::check_one_of;
+use super::error::{Fault, SceneError};
+use super::names::quote;
+use super::number::Range;
+use super::object::Object;
+use super::picture::beside;
+use super::scene::Builder;
+use super::transform::turn;
+
+/// A far-field point source whose intensities stand in a file. `flux` (lm) replaces the file's, `tint` multiplies it.
+pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
+    let file = object.take("filename", &["string"])?;
+    let given = object.vector("position", Range::COORDINATE)?;
+    let placed = object.transform()?;
+    check_one_of(&object, given, placed, "position")?;
+    let flux = object.float("flux", Range::EMISSION)?;
+    let tint = object.colour("tint", Range::EMISSION)?.unwrap_or([1.0; 3]);
+    if object.float("sampling_weight", Range::ANY)?.is_some() {
+        builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
+    }
+    let element = object.element;
+    object.close(&[])?;
+    let file = file.ok_or_else(|| element.error("ies has no filename", "name a luminaire file (.ies or .ldt)"))?;
+    let to_world = turn(&placed.unwrap_or(DAffine3::IDENTITY)).ok_or_else(|| {
+        element.error("to_world of a luminaire shears or mirrors it", "use rotate, lookat and translate alone")
+    })?;
+    let table = table(element, file.required("value"), builder)?;
+    let scale = flux.map_or(1.0, |flux| flux / table.flux()) * table.brightest();
+    let intensity = tint.map(|tint| tint * scale);
+    for channel in intensity {
+        let brightest = |fault: Fault| element.error(format!("its brightest intensity {}", fault.what), fault.mend);
+        Range::EMISSION.check(channel).map_err(brightest)?;
+    }
+    let position = given.or(placed.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
+    Ok(Emitter::Point { id, position, intensity, pattern: Pattern::Table { table, to_world } })
+}
+
+/// The table of a file, read once; what the file says that is not used becomes a note.
+fn table(element: &Element, name: &str, builder: &mut Builder) -> Result<Arc<IntensityTable>, SceneError> {
+    let path = beside(element, name);
+    if let Some(table) = builder.luminaires.get(&path) {
+        return Ok(Arc::clone(table));
+    }
+    let luminaire = read_luminaire(&path).map_err(|error| {
+        let place = error.line.map(|line| format!("line {line}: ")).unwrap_or_default();
+        element.error(format!("{} {place}{}", quote(name), error.what), error.mend)
+    })?;
+    for note in luminaire.notes {
+        builder.note(&format!("{} {note}", quote(name)));
+    }
+    let table = Arc::new(luminaire.table);
+    builder.luminaires.insert(path, Arc::clone(&table));
+    Ok(table)
+}
