@@ -6,7 +6,7 @@ use crate::FigureError;
 use crate::axes::{check, cut_points, horizontal, vertical};
 use crate::canvas::{self, Anchor, Canvas};
 use crate::legend::Legend;
-use crate::plot::{HEIGHT, LABEL, LEADING, Plot};
+use crate::plot::{LABEL, LEADING, Plot};
 use crate::style::{INK, PAPER, Style, styles};
 use crate::text;
 

@@ -1,7 +1,7 @@
 //! The kernels behind queries, each with every instruction set: a ball's walk, its sum, the k nearest, and the builds.
 
 use criterion::{BatchSize, BenchmarkId, Criterion, criterion_group, criterion_main};
-use photonlab_kdtree::{Instructions, KdTree, Neighbours, SplitRule};
+use photonlab_kdtree::{Instructions, KdTree, Neighbours, Reach, SplitRule, VisitCost};
 
 /// Uniform in the unit square at z = 0, from a multiplicative generator.
 fn sheet(count: usize) -> Vec<[f32; 3]> {
@@ -42,7 +42,13 @@ fn queries(c: &mut Criterion) {
 fn builds(c: &mut Criterion) {
     let points = sheet(100_000);
     let mut group = c.benchmark_group("build");
-    for rule in [SplitRule::Median] {
+    let costs = [
+        VisitCost::SurfaceArea,
+        VisitCost::VoxelVolume(Reach::Nearest(100)),
+        VisitCost::BallInSpace(Reach::Nearest(100)),
+        VisitCost::BallOnSheet(Reach::Nearest(100)),
+    ];
+    for rule in costs.map(SplitRule::Binned).into_iter().chain([SplitRule::Median]) {
         group.bench_function(BenchmarkId::from_parameter(format!("{rule:?}")), |b| {
             let payload = || (points.clone(), points.clone());
             b.iter_batched(payload, |(points, payload)| KdTree::build(points, payload, rule), BatchSize::LargeInput);

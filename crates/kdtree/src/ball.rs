@@ -8,18 +8,33 @@ use crate::visits::{Meter, Unmetered, Visits};
 
 /// Is shown the blocks that have points in the ball.
 trait Visitor {
+    /// What it gathers on the way, in registers where it can.
+    type State<L: Lanes>;
+
+    fn start<L: Lanes>() -> Self::State<L>;
+
     /// Point `first + i` is in the ball where bit i of `mask` is set.
-    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, distances: L::Floats);
+    fn visit<L: Lanes>(&mut self, state: &mut Self::State<L>, first: usize, mask: u16, distances: L::Floats);
+
+    fn finish<L: Lanes>(&mut self, state: Self::State<L>);
 }
 
 /// Passes blocks on to a closure.
 struct Each<V>(V);
 
 impl<V: FnMut(usize, u16, &[f32; BLOCK])> Visitor for Each<V> {
+    type State<L: Lanes> = ();
+
     #[inline(always)]
-    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, distances: L::Floats) {
+    fn start<L: Lanes>() {}
+
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, _: &mut (), first: usize, mask: u16, distances: L::Floats) {
         (self.0)(first, mask, &L::store(distances));
     }
+
+    #[inline(always)]
+    fn finish<L: Lanes>(&mut self, _: ()) {}
 }
 
 /// Adds the payloads, in sixteen lanes.
@@ -29,16 +44,28 @@ struct Sum<'a, const N: usize> {
 }
 
 impl<const N: usize> Visitor for Sum<'_, N> {
+    type State<L: Lanes> = [L::Floats; N];
+
     #[inline(always)]
-    fn visit<L: Lanes>(&mut self, first: usize, mask: u16, _: L::Floats) {
+    fn start<L: Lanes>() -> [L::Floats; N] {
+        [L::load(&[0.0; BLOCK]); N]
+    }
+
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, sums: &mut [L::Floats; N], first: usize, mask: u16, _: L::Floats) {
         match self.payload[first..].first_chunk::<BLOCK>() {
-            Some(rows) => L::add_rows(&mut self.sums, rows.as_flattened(), mask),
+            Some(rows) => L::add_rows(sums, rows.as_flattened(), mask),
             None => {
                 let mut rows = [[0.0; N]; BLOCK];
                 rows[..self.payload.len() - first].copy_from_slice(&self.payload[first..]);
-                L::add_rows(&mut self.sums, rows.as_flattened(), mask);
+                L::add_rows(sums, rows.as_flattened(), mask);
             }
         }
+    }
+
+    #[inline(always)]
+    fn finish<L: Lanes>(&mut self, sums: [L::Floats; N]) {
+        self.sums = sums.map(L::store);
     }
 }
 
@@ -77,14 +104,22 @@ impl<V: Visitor, M: Meter> Walk<'_, V, M> {
     }
 
     #[inline(always)]
-    fn leaf<L: Lanes>(&mut self, points: std::ops::Range<usize>) {
+    fn leaf<L: Lanes>(&mut self, state: &mut V::State<L>, points: std::ops::Range<usize>) {
         self.meter.leaf(points.len());
+        if points.start.is_multiple_of(BLOCK) && points.len() <= BLOCK {
+            return self.block::<L>(state, points.start / BLOCK, u16::MAX >> (BLOCK - points.len()));
+        }
         for block in points.start / BLOCK..points.end.div_ceil(BLOCK) {
-            let distances = L::to_points(&self.blocks[block], &self.query);
-            let mask = L::within(distances, self.reach) & lanes_in(&points, block);
-            if mask != 0 {
-                self.visitor.visit::<L>(block * BLOCK, mask, distances);
-            }
+            self.block::<L>(state, block, lanes_in(&points, block));
+        }
+    }
+
+    #[inline(always)]
+    fn block<L: Lanes>(&mut self, state: &mut V::State<L>, block: usize, lanes: u16) {
+        let distances = L::to_points(&self.blocks[block], &self.query);
+        let mask = L::within(distances, self.reach) & lanes;
+        if mask != 0 {
+            self.visitor.visit::<L>(state, block * BLOCK, mask, distances);
         }
     }
 }
@@ -94,13 +129,14 @@ impl<V: Visitor, M: Meter> Task for Walk<'_, V, M> {
 
     #[inline(always)]
     fn run<L: Lanes>(mut self) {
+        let mut state = V::start::<L>();
         let mut pending = [(0u32, 0u16); crate::tree::MAX_DEPTH];
         let mut depth = 0;
         let (mut node, mut mask) = (0, self.open::<L>(0));
         loop {
             if mask == 0 {
                 if depth == 0 {
-                    return;
+                    return self.visitor.finish::<L>(state);
                 }
                 depth -= 1;
                 (node, mask) = (pending[depth].0 as usize, pending[depth].1);
@@ -108,15 +144,16 @@ impl<V: Visitor, M: Meter> Task for Walk<'_, V, M> {
             }
             let lane = mask.trailing_zeros() as usize;
             mask &= mask - 1;
-            if self.nodes[node].is_inner(lane) {
+            let parent = &self.nodes[node];
+            if parent.is_inner(lane) {
                 if mask != 0 {
                     pending[depth] = (node as u32, mask);
                     depth += 1;
                 }
-                node = self.nodes[node].child(lane);
+                node = parent.child(lane);
                 mask = self.open::<L>(node);
             } else {
-                self.leaf::<L>(self.nodes[node].points(lane));
+                self.leaf::<L>(&mut state, parent.points(lane));
             }
         }
     }

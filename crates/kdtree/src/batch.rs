@@ -18,16 +18,15 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         let mut order: Vec<u64> =
             queries.par_iter().zip(0..queries.len()).map(|(&q, i)| self.place(q) | i as u64).collect();
         order.par_sort_unstable();
-        let numbered = |&key: &u64| (key & u64::from(u32::MAX)) as usize;
-        let mut answers: Vec<(usize, T)> = order
-            .par_chunks(RUN)
-            .flat_map_iter(|run| {
-                let (ask, mut memory) = (&ask, Neighbours::default());
-                run.iter().map(move |key| (numbered(key), ask(numbered(key), &mut memory)))
-            })
-            .collect();
-        answers.par_sort_unstable_by_key(|&(i, _)| i);
-        answers.into_iter().map(|(_, answer)| answer).collect()
+        let answer = |run: &[u64]| {
+            let mut memory = Neighbours::default();
+            let numbers = run.iter().map(|&key| (key & u64::from(u32::MAX)) as usize);
+            numbers.map(|i| (i, ask(i, &mut memory))).collect::<Vec<_>>()
+        };
+        let runs: Vec<Vec<(usize, T)>> = order.par_chunks(RUN).map(answer).collect();
+        let mut answers: Vec<Option<T>> = std::iter::repeat_with(|| None).take(queries.len()).collect();
+        runs.into_iter().flatten().for_each(|(i, answer)| answers[i] = Some(answer));
+        answers.into_iter().map(|answer| answer.expect("every query is in one run")).collect()
     }
 
     /// Along a Morton curve through the points' box, in the upper 32 bits: 10 bits an axis.

@@ -53,7 +53,8 @@ mod tests {
         let block = Block::of([[1.0, 2.0, 3.0]]);
         assert_eq!(block.point(0), [1.0, 2.0, 3.0]);
         assert!(block.point(1)[0].is_nan());
-        assert!(block == block.clone());
+        let same = block;
+        assert!(block == same);
     }
 
     #[test]

@@ -9,6 +9,7 @@ pub(crate) struct Bounds {
 
 impl Bounds {
     /// The tight box of at least one point.
+    #[cfg(test)]
     pub(crate) fn around(points: impl IntoIterator<Item = [f32; 3]>) -> Self {
         let none = Self { lo: [f32::INFINITY; 3], hi: [f32::NEG_INFINITY; 3] };
         points.into_iter().fold(none, |b, p| Self {

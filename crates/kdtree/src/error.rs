@@ -29,4 +29,10 @@ pub enum BuildError {
         /// The cost given.
         cost: f64,
     },
+    /// The radius of the queries to come must be zero or more, and finite.
+    #[error("the radius of the queries to come is {radius}")]
+    Reach {
+        /// The radius given.
+        radius: f32,
+    },
 }

@@ -31,12 +31,15 @@
 
 mod ball;
 mod batch;
+mod binned;
 mod block;
 mod bounds;
 mod branch;
 mod candidates;
 mod distance;
 mod error;
+mod grow;
+mod item;
 mod lanes;
 mod median;
 mod nearest;
@@ -47,6 +50,7 @@ mod shape;
 mod surface_area;
 mod sweep;
 mod tree;
+mod visit_cost;
 mod visits;
 
 pub use distance::distance_squared;
@@ -56,4 +60,5 @@ pub use neighbours::{Neighbour, Neighbours};
 pub use rule::{DEFAULT_LEAF_LIMIT, EmptyCost, SplitRule};
 pub use shape::TreeShape;
 pub use tree::KdTree;
+pub use visit_cost::{Reach, VisitCost};
 pub use visits::Visits;

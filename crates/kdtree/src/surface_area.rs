@@ -1,11 +1,12 @@
 //! Building by the surface-area rule, eq. 2 of the paper.
 
-use rayon::slice::ParallelSliceMut;
+use rayon::prelude::*;
 
 use crate::bounds::Bounds;
 use crate::branch::Branch;
+use crate::item::{Item, item};
 use crate::rule::EmptyCost;
-use crate::sweep::{Cut, best_cut};
+use crate::sweep::{Cut, Seek};
 
 /// Below this many points a subtree is built by one thread.
 const SERIAL: usize = 1 << 12;
@@ -16,15 +17,15 @@ pub(crate) fn depth_limit(count: usize) -> usize {
 }
 
 /// The tree of at least one point, and the original indices in the order of its leaves.
-pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> (Branch, Vec<u32>) {
+pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize, seek: Seek) -> (Branch, Vec<Item>) {
     let mut sorted: [Vec<u32>; 3] = std::array::from_fn(|axis| sorted_along(points, axis));
     let mut scratch = vec![0; points.len()];
     let [x, y, z] = &mut sorted;
     let orders = Orders { along: [x, y, z], scratch: &mut scratch };
     let cell = orders.tight_box(points);
-    let root = Builder { points, empty_cost, leaf_limit }.grow(cell, orders, depth_limit(points.len()));
+    let root = Builder { points, empty_cost, leaf_limit, seek }.grow(cell, orders, depth_limit(points.len()));
     let [order, ..] = sorted;
-    (root, order)
+    (root, order.par_iter().map(|&i| item(points, i)).collect())
 }
 
 fn sorted_along(points: &[[f32; 3]], axis: usize) -> Vec<u32> {
@@ -39,6 +40,7 @@ struct Builder<'a> {
     points: &'a [[f32; 3]],
     empty_cost: EmptyCost,
     leaf_limit: usize,
+    seek: Seek,
 }
 
 impl Builder<'_> {
@@ -78,7 +80,7 @@ impl Builder<'_> {
         let area = cell.area();
         let cost_as_leaf = area * orders.len() as f64;
         // An infinite cost of a node without area is not a number, and no reason to cut.
-        best_cut(cell, self.points, orders.as_slices())
+        (self.seek)(cell, self.points, orders.as_slices())
             .filter(|cut| self.empty_cost.of(area) + cut.cost <= cost_as_leaf)
     }
 
@@ -146,10 +148,11 @@ impl<'a> Orders<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sweep::best_cut;
     use crate::{KdTree, SplitRule};
 
     fn leaves(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize) -> usize {
-        build(points, empty_cost, leaf_limit).0.leaves()
+        build(points, empty_cost, leaf_limit, best_cut).0.leaves()
     }
 
     #[test]
@@ -180,7 +183,7 @@ mod tests {
         assert_eq!([1, 2, 3, 1 << 31].map(depth_limit), [16, 18, 20, 78]);
         // Cubes that halve: by eq. 2 it is cheapest to take off the few outermost points.
         let points: Vec<[f32; 3]> = (0..250).map(|i| [2f32.powi(i - 125); 3]).collect();
-        let root = build(&points, EmptyCost::NodeAreas(0.0), 1).0;
+        let root = build(&points, EmptyCost::NodeAreas(0.0), 1, best_cut).0;
         assert_eq!(root.cuts(), depth_limit(250));
         assert!(depth_limit(crate::tree::MAX_POINTS) < crate::tree::MAX_DEPTH);
         let rule = SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(0.0) };
@@ -191,7 +194,7 @@ mod tests {
     #[test]
     fn a_leaf_keeps_the_order_given() {
         let points: Vec<[f32; 3]> = (0..99).map(|i| [-(i as f32), 0.0, (i % 7) as f32]).collect();
-        let (_, order) = build(&points, EmptyCost::Constant(f64::INFINITY), 1);
-        assert_eq!(order, (0..99).collect::<Vec<_>>());
+        let (_, order) = build(&points, EmptyCost::Constant(f64::INFINITY), 1, best_cut);
+        assert_eq!(order.iter().map(crate::item::index).collect::<Vec<_>>(), (0..99).collect::<Vec<_>>());
     }
 }

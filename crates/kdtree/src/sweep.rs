@@ -23,6 +23,35 @@ impl Cut {
     }
 }
 
+/// A way to find the best cut of a cell, of whose points the `orders` are the sorted numbers along each axis.
+pub(crate) type Seek = fn(cell: &Bounds, points: &[[f32; 3]], orders: [&[u32]; 3]) -> Option<Cut>;
+
+/// The same as [`best_cut`] by the paper's enumeration: for every point a plane, and for every plane a look at every
+/// point. Quadratic; there to be measured.
+pub(crate) fn enumerated_cut(cell: &Bounds, points: &[[f32; 3]], orders: [&[u32]; 3]) -> Option<Cut> {
+    let mut best = None;
+    for axis in 0..3 {
+        let (slab, count) = (Slab::new(cell, axis), orders[axis].len());
+        for &index in orders[axis] {
+            let at = points[index as usize][axis];
+            for ties_left in [false, true] {
+                let mut cut = Cut { axis, at, ties_left, left: 0, cost: 0.0 };
+                cut.left = orders[axis].iter().filter(|&&other| cut.is_left(points[other as usize][axis])).count();
+                cut.cost = slab.cost(at, cut.left, count);
+                if changes(&cut, cell, count) {
+                    keep_better(&mut best, cut, count);
+                }
+            }
+        }
+    }
+    best
+}
+
+/// Whether a cut parts the points or shrinks the cell.
+fn changes(cut: &Cut, cell: &Bounds, count: usize) -> bool {
+    (cut.left > 0 || cut.at > cell.lo[cut.axis]) && (cut.left < count || cut.at < cell.hi[cut.axis])
+}
+
 /// The best cut of a cell; none where its points coincide and it cannot shrink either.
 ///
 /// `orders[axis]` numbers the cell's points by rising coordinate on that axis.
@@ -47,10 +76,9 @@ fn sweep(cell: &Bounds, points: &[[f32; 3]], order: &[u32], axis: usize, best: &
             end += 1;
         }
         for (left, ties_left) in [(first, false), (end, true)] {
-            let shrinks_or_splits = (left > 0 || at > cell.lo[axis]) && (left < count || at < cell.hi[axis]);
-            if shrinks_or_splits {
-                let cost = slab.cost(at, left, count);
-                keep_better(best, Cut { axis, at, ties_left, left, cost }, count);
+            let cut = Cut { axis, at, ties_left, left, cost: slab.cost(at, left, count) };
+            if changes(&cut, cell, count) {
+                keep_better(best, cut, count);
             }
         }
         first = end;
@@ -173,6 +201,8 @@ mod tests {
             // Small whole numbers: every cost is exact, so the comparison is too.
             let cut = swept(&cell, &points);
             prop_assert_eq!(cut.map(|c| c.cost), enumerated(&cell, &points));
+            let orders = orders(&points);
+            prop_assert_eq!(cut, enumerated_cut(&cell, &points, [&orders[0], &orders[1], &orders[2]]));
             if let Some(cut) = cut {
                 let left = points.iter().filter(|p| cut.is_left(p[cut.axis])).count();
                 prop_assert_eq!(left, cut.left);

@@ -2,12 +2,16 @@
 
 use rayon::prelude::*;
 
+use crate::binned::Binned;
 use crate::block::{BLOCK, Block};
 use crate::error::BuildError;
+use crate::item::{self, Item};
 use crate::lanes::Instructions;
+use crate::median::Median;
 use crate::node::Node;
 use crate::rule::{DEFAULT_LEAF_LIMIT, SplitRule};
-use crate::{median, surface_area};
+use crate::sweep::{best_cut, enumerated_cut};
+use crate::{grow, surface_area};
 
 /// More than the cuts above any leaf: 78 at most (the depth limit of 2^31 points).
 pub(crate) const MAX_DEPTH: usize = 80;
@@ -51,12 +55,16 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         }
         let leaf_limit = leaf_limit.max(1);
         let (root, order) = match rule {
-            SplitRule::Median => median::build(&points, leaf_limit),
-            SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit),
+            SplitRule::Median => grow::build(&points, leaf_limit, &Median),
+            SplitRule::Binned(cost) => grow::build(&points, leaf_limit, &Binned(cost)),
+            SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit, best_cut),
+            SplitRule::Enumeration { empty_cost } => {
+                surface_area::build(&points, empty_cost, leaf_limit, enumerated_cut)
+            }
         };
-        let block = |run: &[u32]| Block::of(run.iter().map(|&i| points[i as usize]));
+        let block = |run: &[Item]| Block::of(run.iter().map(|&[x, y, z, _]| [x, y, z]));
         let blocks = order.par_chunks(BLOCK).with_min_len(256).map(block).collect();
-        let payload = order.par_iter().with_min_len(4096).map(|&i| payload[i as usize]).collect();
+        let payload = order.par_iter().with_min_len(4096).map(|item| payload[item::index(item) as usize]).collect();
         Ok(Self { nodes: root.into_nodes(), blocks, payload, instructions })
     }
 
@@ -78,7 +86,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         self.payload.is_empty()
     }
 
-    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in the order given to `build`.
+    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in an order that the points and the rule fix.
     ///
     /// # Panics
     ///

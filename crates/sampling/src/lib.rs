@@ -6,8 +6,10 @@
 
 mod direct;
 mod environment;
+mod environment_table;
 mod fresnel;
 mod lamp;
+mod lamps;
 mod matte;
 mod microfacet;
 mod pattern;
@@ -19,11 +21,13 @@ mod spherical_rectangle;
 mod stream;
 mod tabulated;
 pub mod warp;
+mod window;
 
 pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};
 pub use environment::Environment;
 pub use fresnel::{diffuse_fresnel, fresnel_conductor, fresnel_dielectric};
-pub use lamp::{Emission, Lamp, LampKind, Lamps};
+pub use lamp::{Emission, Lamp, LampKind};
+pub use lamps::Lamps;
 pub use matte::{Matte, Sight};
 pub use microfacet::Facets;
 pub use plan::{EmissionPlan, PlanError};

@@ -6,26 +6,28 @@
 
 mod accelerator;
 mod ball;
+mod bsdf;
 mod cell;
 mod description;
+mod emitter;
 pub mod luminaire;
 mod needs;
 mod parallelogram;
 mod primitive;
 mod ray;
 pub mod read;
+mod sensor;
 mod sky;
 mod world;
 
 pub use ball::Ball;
+pub use bsdf::{Bsdf, Conductor, Dielectric, Microfacets, Roughness, SpecularReflectance};
+pub use description::{Geometry, Rgb, Scene, Shape};
+pub use emitter::{Emitter, EnvironmentLight, Pattern, SkyMap};
 pub use needs::{Need, Needs};
 pub use parallelogram::Parallelogram;
 pub use primitive::{Hit, Primitive, Surface, SurfacePoint};
 pub use ray::Ray;
+pub use sensor::{Camera, Film, Meter, Receiver, Sensor};
 pub use sky::{Sky, SkyLaw};
 pub use world::World;
-
-pub use description::{
-    Bsdf, Camera, Conductor, Dielectric, Emitter, EnvironmentLight, Film, Geometry, Meter, Microfacets, Pattern,
-    Receiver, Rgb, Roughness, Scene, Sensor, Shape, SkyMap, SpecularReflectance,
-};

@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Channels;
 
-use crate::description::{Geometry, Receiver, Scene};
+use crate::{Geometry, Receiver, Scene};
 
 /// One thing that is modelled, or left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -4,9 +4,11 @@ use glam::DVec3;
 
 use crate::{
     accelerator::{Accelerator, whole},
-    description::{Bsdf, Receiver, Scene, Shape},
+    bsdf::Bsdf,
+    description::{Scene, Shape},
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
     ray::Ray,
+    sensor::Receiver,
 };
 
 /// A ray that starts on no known surface ignores what is nearer than this times its origin's largest coordinate.

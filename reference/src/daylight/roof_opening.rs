@@ -89,8 +89,8 @@ impl RoofOpening {
 fn sky_xml(sky: Sky, zenith: f64) -> String {
     match sky {
         Sky::Uniform => mitsuba::constant_light(&[zenith]),
-        Sky::Overcast => mitsuba::sky("overcast", zenith),
-        Sky::CieType1 => mitsuba::sky("cie1", zenith),
+        Sky::Overcast => mitsuba::sky(None, zenith),
+        Sky::CieType1 => mitsuba::sky(Some(1), zenith),
     }
 }
 

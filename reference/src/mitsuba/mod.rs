@@ -87,13 +87,16 @@ pub(crate) fn constant_light(radiance: &[f64]) -> String {
     format!("  <emitter type=\"constant\"><rgb name=\"radiance\" value=\"{radiance}\"/></emitter>\n")
 }
 
-/// A sky over the plane z = 0 of this type (`overcast`: CIE traditional, 1:3; `cie1`: CIE general sky, type 1) with this
-/// radiance at the zenith, +z.
-pub(crate) fn sky(kind: &str, zenith: f64) -> String {
-    format!(
-        "  <emitter type=\"sky\"><string name=\"type\" value=\"{kind}\"/>\
-         <rgb name=\"zenith_radiance\" value=\"{zenith}\"/></emitter>\n"
-    )
+/// A sky over the plane z = 0 with this radiance at the zenith, +z: the traditional overcast one (1:3), or one of the
+/// general skies by its number.
+pub(crate) fn sky(general: Option<u8>, zenith: f64) -> String {
+    let law = match general {
+        None => "<string name=\"distribution\" value=\"overcast\"/>".to_owned(),
+        Some(kind) => {
+            format!("<string name=\"distribution\" value=\"general\"/><integer name=\"cie_type\" value=\"{kind}\"/>")
+        }
+    };
+    format!("  <emitter type=\"sky\">{law}<rgb name=\"radiance\" value=\"{zenith}\"/></emitter>\n")
 }
 
 /// Turns the shape it is put on into a lamp.

@@ -98,7 +98,7 @@ impl Grid {
         for i in 0..16 {
             count[i] += inside[i] & 1;
         }
-        if SUM {
+        if SUM && inside != [0; 16] {
             for (sum, values) in sums.iter_mut().zip([red, green, blue]) {
                 for i in 0..16 {
                     sum[i] += f32::from_bits(values[i].to_bits() & inside[i]);

@@ -1,5 +1,6 @@
 //! This crate's tree beside its peers: same photons, same queries, same job, CPU time of one thread, best of several
 //! rounds in which the contestants take turns. Each case is a row; the last line has the geometric means.
+//! Queries go to the tree of the default rule; the build that is compared is the median's, as kiddo's is one too.
 //!
 //! kiddo is measured as compiled here and, by running this bench again with `target-cpu=native` in a target folder of
 //! its own, with native flags; the better of the two is the ratio's. nanoflann is measured where a C++ compiler finds
@@ -16,6 +17,7 @@ mod native;
 mod ours;
 mod photons;
 mod report;
+mod rules;
 
 use photonlab_kdtree::{Instructions, SplitRule};
 
@@ -67,13 +69,14 @@ fn main() {
     for set in &sets {
         let mut seconds = [f64::INFINITY; 2];
         for _ in 0..rounds {
-            seconds[0] = seconds[0].min(clock::time(|| ours::Ours::build(set, SplitRule::default())).0);
+            seconds[0] = seconds[0].min(ours::Ours::timed_build(set, SplitRule::Median).0);
             seconds[1] = seconds[1].min(clock::time(|| kiddo::Kiddo::build(set)).0);
         }
         report.add(Row::build(set.name, seconds, native.build(set.name)));
 
         let mut ours = ours::Ours::build(set, SplitRule::default()).with_instructions(instructions());
         println!("{}: {:?}", set.name, ours.tree.shape());
+        rules::compare(set);
         let mut kiddo = kiddo::Kiddo::build(set);
         for k in [50, 100, 200] {
             let radius = cases::typical_radius(&ours, set, k);

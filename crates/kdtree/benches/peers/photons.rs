@@ -45,9 +45,12 @@ fn volume(draw: &mut Draw) -> [f32; 3] {
     [draw.next(), draw.next(), draw.next()]
 }
 
+/// Draws a position.
+type Place = fn(&mut Draw) -> [f32; 3];
+
 /// The three sets of `count` photons, with `asked` queries in either order.
 pub(crate) fn sets(count: usize, asked: usize) -> [PhotonSet; 3] {
-    let kinds: [(_, fn(&mut Draw) -> [f32; 3]); 3] = [("walls", walls), ("caustic", caustic), ("volume", volume)];
+    let kinds: [(_, Place); 3] = [("walls", walls), ("caustic", caustic), ("volume", volume)];
     kinds.map(|(name, place)| {
         let mut draw = Draw(1);
         let points: Vec<_> = (0..count).map(|_| place(&mut draw)).collect();

@@ -100,9 +100,12 @@ impl Lanes for Avx512 {
     }
 
     #[inline(always)]
-    fn add_rows<const N: usize>(sums: &mut [[f32; 16]; N], values: &[f32], mask: u16) {
+    fn add_rows<const N: usize>(sums: &mut [__m512; N], values: &[f32], mask: u16) {
         if N > 4 {
-            return Portable::add_rows(sums, values, mask);
+            let mut arrays = sums.map(Self::store);
+            Portable::add_rows(&mut arrays, values, mask);
+            *sums = arrays.map(|array| Self::load(&array));
+            return;
         }
         // Each bit spread over the N floats of its row: 16 N bits.
         let spread = const {
@@ -119,9 +122,7 @@ impl Lanes for Avx512 {
             let floats = if N == 4 { (firsts << 4).wrapping_sub(firsts) } else { firsts * ((1 << N) - 1) };
             for (i, (sum, block)) in sums.iter_mut().zip(blocks).enumerate() {
                 let mask = (floats >> (16 * i)) as u16;
-                let old = _mm512_loadu_ps(sum.as_ptr());
-                let new = _mm512_mask_add_ps(old, mask, old, _mm512_loadu_ps(block.as_ptr()));
-                _mm512_storeu_ps(sum.as_mut_ptr(), new);
+                *sum = _mm512_mask_add_ps(*sum, mask, *sum, Self::load(block));
             }
         }
     }

@@ -53,7 +53,7 @@ pub(crate) trait Lanes {
     fn prefetch<T>(items: &[T]);
 
     /// Adds row i of `values` to row i of `sums` where bit i is set; both hold sixteen rows of `N`, one after another.
-    fn add_rows<const N: usize>(sums: &mut [[f32; 16]; N], values: &[f32], mask: u16);
+    fn add_rows<const N: usize>(sums: &mut [Self::Floats; N], values: &[f32], mask: u16);
 }
 
 #[cfg(test)]
@@ -78,11 +78,12 @@ mod tests {
             L::compress(points, mask, 77, &mut values, &mut indices);
             L::compress_indices(&keys, mask, &mut kept);
             let count = mask.count_ones() as usize;
-            let (mut three, mut five) = ([[0.0f32; 16]; 3], [[0.0f32; 16]; 5]);
+            let zero = L::load(&[0.0; 16]);
+            let (mut three, mut five) = ([zero; 3], [zero; 5]);
             L::add_rows(&mut three, list, mask);
             L::add_rows(&mut five, list, mask);
             let floats = L::store(points).into_iter().chain(L::store(boxes)).chain(values[..count].to_vec());
-            let sums = three.into_iter().chain(five).flatten();
+            let sums = three.into_iter().chain(five).flat_map(L::store);
             let mut bits: Vec<u32> = floats.chain(sums).map(f32::to_bits).collect();
             bits.extend(indices[..count].iter().chain(&kept[..count]));
             let greater = L::greater(&keys, mask, keys[3]).into();

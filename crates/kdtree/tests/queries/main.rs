@@ -2,5 +2,7 @@
 
 mod adversarial;
 mod brute_force;
+mod doors;
+mod linear;
 mod obvious;
 mod threads;

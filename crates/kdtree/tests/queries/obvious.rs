@@ -1,13 +1,18 @@
 //! The obvious loops, and the comparison of a tree with them.
 
-use photonlab_kdtree::{EmptyCost, Instructions, KdTree, Neighbours, SplitRule, distance_squared};
+use photonlab_kdtree::{EmptyCost, Instructions, KdTree, Neighbours, Reach, SplitRule, VisitCost, distance_squared};
 
 /// The rules that every case is put through.
-pub(crate) const RULES: [SplitRule; 5] = [
+pub(crate) const RULES: [SplitRule; 10] = [
     SplitRule::Median,
     SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(0.0) },
     SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(3.0) },
     SplitRule::SurfaceArea { empty_cost: EmptyCost::NodeAreas(2.0) },
+    SplitRule::Binned(VisitCost::SurfaceArea),
+    SplitRule::Binned(VisitCost::VoxelVolume(Reach::Radius(0.25))),
+    SplitRule::Binned(VisitCost::BallInSpace(Reach::Nearest(20))),
+    SplitRule::Binned(VisitCost::BallOnSheet(Reach::Nearest(100))),
+    SplitRule::Enumeration { empty_cost: EmptyCost::NodeAreas(3.0) },
     // Never splits: one leaf of any size.
     SplitRule::SurfaceArea { empty_cost: EmptyCost::Constant(f64::INFINITY) },
 ];

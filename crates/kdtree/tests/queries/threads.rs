@@ -1,7 +1,7 @@
 //! A tree depends on its points and rule, not on who built it; and queries look at few of its points.
 
 use crate::obvious::{RULES, build};
-use photonlab_kdtree::{KdTree, Neighbours};
+use photonlab_kdtree::{KdTree, Neighbours, SplitRule};
 
 /// Points of a sheet and of a volume in turn, some of them repeated, from a small multiplicative generator.
 fn points(count: usize) -> Vec<[f32; 3]> {
@@ -20,7 +20,8 @@ fn with_threads(threads: usize, make: impl FnOnce() -> KdTree<usize> + Send) -> 
 #[test]
 fn any_number_of_threads_builds_the_same_tree() {
     let points = points(60_000);
-    for rule in RULES {
+    // All but the quadratic one.
+    for rule in RULES.into_iter().filter(|rule| !matches!(rule, SplitRule::Enumeration { .. })) {
         let alone = with_threads(1, || build(&points, rule, 8));
         for threads in [2, 3, 8] {
             assert!(alone == with_threads(threads, || build(&points, rule, 8)), "{threads} threads, {rule:?}");
@@ -31,7 +32,7 @@ fn any_number_of_threads_builds_the_same_tree() {
 #[test]
 fn queries_look_at_few_points() {
     let points = points(60_000);
-    for rule in &RULES[..4] {
+    for rule in &RULES[..8] {
         let tree = build(&points, *rule, 16);
         let mut found = Neighbours::default();
         let visits = tree.nearest_counted([0.5, 0.5, 0.0], 100, f32::INFINITY, |_| true, &mut found);

@@ -1,0 +1,136 @@
+//! All lamps of a scene, and how one of them is chosen.
+
+use std::{f64::consts::PI, sync::Arc};
+
+use glam::DVec3;
+use photonlab_photometry::Colour;
+use photonlab_scene::{Emitter, World};
+
+use crate::{Environment, Lamp, LampKind, pattern, window::covering_window};
+
+/// All lamps of a scene, one per emitting primitive, with the probability of choosing each for direct light.
+#[derive(Clone, Debug)]
+pub struct Lamps<const C: usize> {
+    /// The lamps that emit anything, in the order of the file; lamps without a surface first.
+    pub lamps: Vec<Lamp<C>>,
+    /// Probability of each when one is chosen.
+    pub probability: Vec<f64>,
+    /// The lamp of each primitive, if it emits.
+    of_primitive: Vec<Option<u32>>,
+    /// The lamp that is the environment, if there is one.
+    environment: Option<usize>,
+}
+
+impl<const C: usize> Lamps<C> {
+    /// Collects the lamps of a scene.
+    pub fn new(world: &World) -> Self {
+        let mut lamps: Vec<Lamp<C>> = world.scene.emitters.iter().map(|e| surfaceless(world, e)).collect();
+        for (index, shape) in world.scene.shapes.iter().enumerate() {
+            let Some(radiance) = shape.radiance.map(Colour::<C>::from_rgb) else {
+                continue;
+            };
+            for primitive in world.primitives_of(index) {
+                let area = world.primitives[primitive as usize].surface.area();
+                let kind = LampKind::Area { primitive, radiance, area };
+                lamps.push(Lamp { id: shape.id.clone(), kind, flux: radiance * (PI * area) });
+            }
+        }
+        lamps.retain(|lamp| !lamp.flux.is_zero());
+        let mut of_primitive = vec![None; world.primitives.len()];
+        for (index, lamp) in lamps.iter().enumerate() {
+            if let LampKind::Area { primitive, .. } = lamp.kind {
+                of_primitive[primitive as usize] = Some(index as u32);
+            }
+        }
+        let environment = lamps.iter().position(|lamp| matches!(lamp.kind, LampKind::Environment { .. }));
+        let total: f64 = lamps.iter().map(|lamp| lamp.flux.max()).sum();
+        // Half by flux and half evenly: a weak lamp close to a receiver is not starved.
+        let even = 1.0 / lamps.len() as f64;
+        let probability = lamps.iter().map(|lamp| 0.5 * lamp.flux.max() / total + 0.5 * even).collect();
+        Self { lamps, probability, of_primitive, environment }
+    }
+
+    /// The lamp of a primitive, if that emits.
+    pub fn of_primitive(&self, primitive: u32) -> Option<u32> {
+        self.of_primitive[primitive as usize]
+    }
+
+    /// Radiance that a primitive emits towards a ray that comes from its given side.
+    pub fn emitted(&self, primitive: u32, front: bool) -> Colour<C> {
+        match self.of_primitive(primitive) {
+            Some(lamp) if front => match self.lamps[lamp as usize].kind {
+                LampKind::Area { radiance, .. } => radiance,
+                _ => Colour::ZERO,
+            },
+            _ => Colour::ZERO,
+        }
+    }
+
+    /// Radiance that comes from infinity along a direction, outwards, and the density per solid angle with which
+    /// [`crate::LightDraw`] draws it, the choice of the lamp included; `None` without an environment.
+    pub fn from_infinity(&self, direction: DVec3) -> Option<(Colour<C>, f64)> {
+        let index = self.environment?;
+        match &self.lamps[index].kind {
+            LampKind::Environment { environment, .. } => {
+                let pdf = self.probability[index] * environment.pdf_solid_angle(direction);
+                Some((environment.radiance(direction), pdf))
+            }
+            _ => None,
+        }
+    }
+
+    /// Chooses a lamp; its probability is in [`Lamps::probability`].
+    pub fn choose(&self, xi: f64) -> usize {
+        let mut rest = xi;
+        for (index, p) in self.probability.iter().enumerate() {
+            rest -= p;
+            if rest < 0.0 {
+                return index;
+            }
+        }
+        self.lamps.len() - 1
+    }
+
+    /// True if direct light is found by drawing lamps alone, with no help from rays that meet one by chance: lamps without
+    /// extent, rectangles, and spheres that shine outwards.
+    pub fn are_sampled_alone(&self, world: &World) -> bool {
+        self.lamps.iter().all(|lamp| match lamp.kind {
+            LampKind::Point { .. } | LampKind::Directional { .. } => true,
+            LampKind::Environment { .. } => false,
+            LampKind::Area { primitive, .. } => crate::direct::is_drawn_alone(world, primitive),
+        })
+    }
+
+    /// Sum of all lamps' flux.
+    pub fn total_flux(&self) -> Colour<C> {
+        self.lamps.iter().fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)
+    }
+}
+
+fn surfaceless<const C: usize>(world: &World, emitter: &Emitter) -> Lamp<C> {
+    match emitter {
+        Emitter::Point { id, position, intensity, pattern } => {
+            let intensity = Colour::from_rgb(*intensity);
+            let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
+            Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
+        }
+        Emitter::Environment { id, light } => {
+            let environment = Arc::new(Environment::new(light));
+            let (low, high) = world.bounds();
+            let radius = 0.5 * (high - low).length() * (1.0 + 1e-9);
+            let flux = environment.total * (PI * radius * radius);
+            Lamp {
+                id: id.clone(),
+                kind: LampKind::Environment { environment, centre: 0.5 * (low + high), radius },
+                flux,
+            }
+        }
+        Emitter::Directional { id, direction, irradiance } => {
+            let irradiance = Colour::from_rgb(*irradiance);
+            let (corner, sides) = covering_window(world.bounds(), *direction);
+            let area = sides[0].cross(sides[1]).length();
+            let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };
+            Lamp { id: id.clone(), kind, flux: irradiance * area }
+        }
+    }
+}

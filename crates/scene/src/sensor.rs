@@ -1,0 +1,87 @@
+//! Receivers: cameras and meters.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+/// A receiver and where it is.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    /// The `id` of the file, or `sensor-N` (N counted from 0 in the file's order).
+    pub id: String,
+    /// What it is.
+    pub receiver: Receiver,
+    /// Its cells.
+    pub film: Film,
+}
+
+/// The kinds of receiver.
+#[derive(Clone, Debug)]
+pub enum Receiver {
+    /// An image; for `render`.
+    Camera(Camera),
+    /// A number; for `measure`.
+    Meter(Meter),
+}
+
+/// A pinhole camera with Mitsuba's conventions: it looks along +z, +x is to the left of the image, +y is up.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// From camera space to the world (rotation and translation, possibly with scale; directions are normalised).
+    pub to_world: DAffine3,
+    /// Half the field of view along the image's width, as a tangent, for the film's own aspect ratio.
+    pub tan_half_width: f64,
+    /// Half the field of view along the image's height, as a tangent.
+    pub tan_half_height: f64,
+    /// Shift of the image's centre in parts of the film's width and height (Mitsuba `principal_point_offset_x|y`).
+    pub principal_point_offset: [f64; 2],
+    /// Nothing nearer than this along the optical axis is seen, in metres.
+    pub near_clip: f64,
+    /// Nothing farther than this along the optical axis is seen, in metres.
+    pub far_clip: f64,
+}
+
+/// A meter.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Meter {
+    /// Radiance along one ray.
+    Radiancemeter {
+        /// Where the ray starts, metres.
+        origin: DVec3,
+        /// Unit vector in which it looks.
+        direction: DVec3,
+    },
+    /// Irradiance on the front side of a shape, one reading per cell of (u, v).
+    Irradiancemeter {
+        /// Index into [`Scene::shapes`].
+        shape: usize,
+    },
+    /// Flux that arrives on the front side of a shape, one reading per cell of (u, v) (extension).
+    Fluxmeter {
+        /// Index into [`Scene::shapes`].
+        shape: usize,
+    },
+    /// Intensity of the light that leaves the scene, seen from infinity (extension). Cells in type C angles: columns along C
+    /// from local +x towards +y, rows along gamma from local -z to +z.
+    Intensitymeter {
+        /// A rotation from the goniometer's axes.
+        to_world: DMat3,
+    },
+}
+
+impl Meter {
+    /// The shape that it stands on, if any.
+    pub fn shape(&self) -> Option<usize> {
+        match self {
+            Meter::Irradiancemeter { shape } | Meter::Fluxmeter { shape } => Some(*shape),
+            Meter::Radiancemeter { .. } | Meter::Intensitymeter { .. } => None,
+        }
+    }
+}
+
+/// The cells of a sensor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Film {
+    /// Columns.
+    pub width: u32,
+    /// Rows; row 0 is the top of an image, and v = 0 of a meter.
+    pub height: u32,
+}
