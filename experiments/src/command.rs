@@ -140,7 +140,7 @@ pub(crate) struct Measure {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// Write one JSON object.
-    #[arg(long)]
+    #[arg(long, overrides_with = "json")]
     pub(crate) json: bool,
     #[command(flatten)]
     pub(crate) options: Options,

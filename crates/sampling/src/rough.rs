@@ -51,7 +51,7 @@ pub struct RoughDraw<const C: usize> {
     pub v: DVec3,
     /// Share of the flux that goes on, at most one.
     pub share: Colour<C>,
-    /// See [`Rough::compression`].
+    /// Radiance seen along the reversed path over the flux share: n1^2 / n2^2 where light is refracted, else 1.
     pub compression: f64,
 }
 
@@ -186,7 +186,7 @@ mod tests {
             ];
             for test in tests {
                 let (mut drawn, mut weighed) = ([0.0; 2], [0.0; 2]);
-                let mut add = |sums: &mut [f64; 2], x: f64| {
+                let add = |sums: &mut [f64; 2], x: f64| {
                     sums[0] += x;
                     sums[1] += x * x;
                 };

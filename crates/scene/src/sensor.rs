@@ -51,12 +51,12 @@ pub enum Meter {
     },
     /// Irradiance on the front side of a shape, one reading per cell of (u, v).
     Irradiancemeter {
-        /// Index into [`Scene::shapes`].
+        /// Index into [`Scene::shapes`](crate::Scene::shapes).
         shape: usize,
     },
     /// Flux that arrives on the front side of a shape, one reading per cell of (u, v) (extension).
     Fluxmeter {
-        /// Index into [`Scene::shapes`].
+        /// Index into [`Scene::shapes`](crate::Scene::shapes).
         shape: usize,
     },
     /// Intensity of the light that leaves the scene, seen from infinity (extension). Cells in type C angles: columns along C

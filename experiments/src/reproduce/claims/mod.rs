@@ -7,9 +7,14 @@ mod figure_1;
 mod final_gather_edges;
 mod final_gather_rays;
 mod fixed_noisier;
+mod kd_memory;
 mod knn_bias;
+mod range_search;
 mod rendering_equation;
 mod sphere_area;
+mod split_cost;
+mod split_quadratic;
+mod stop_rule;
 mod view_independence;
 
 use photonlab_measure::Record;
@@ -26,6 +31,11 @@ pub(super) enum Claim {
     EdgeDarkening,
     FinalGatherEdges,
     FinalGatherRays,
+    SplitCost,
+    SplitQuadratic,
+    StopRule,
+    RangeSearch,
+    KdMemory,
     ViewIndependence,
     RenderingEquation,
     Figure1,
@@ -34,7 +44,7 @@ pub(super) enum Claim {
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue is run when it is asked for.
-    pub(super) const ALL: [Claim; 10] = [
+    pub(super) const ALL: [Claim; 15] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -42,6 +52,11 @@ impl Claim {
         Claim::EdgeDarkening,
         Claim::FinalGatherEdges,
         Claim::FinalGatherRays,
+        Claim::SplitCost,
+        Claim::SplitQuadratic,
+        Claim::StopRule,
+        Claim::RangeSearch,
+        Claim::KdMemory,
         Claim::ViewIndependence,
         Claim::RenderingEquation,
         Claim::Figure1,
@@ -57,6 +72,11 @@ impl Claim {
             Claim::EdgeDarkening => "edge-darkening",
             Claim::FinalGatherEdges => "final-gather-edges",
             Claim::FinalGatherRays => "final-gather-rays",
+            Claim::SplitCost => "split-cost",
+            Claim::SplitQuadratic => "split-quadratic",
+            Claim::StopRule => "stop-rule",
+            Claim::RangeSearch => "range-search",
+            Claim::KdMemory => "kd-memory",
             Claim::ViewIndependence => "view-independence",
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
@@ -74,6 +94,11 @@ impl Claim {
             Claim::EdgeDarkening => include_str!("../../../definitions/edge-darkening.toml"),
             Claim::FinalGatherEdges => include_str!("../../../definitions/final-gather-edges.toml"),
             Claim::FinalGatherRays => include_str!("../../../definitions/final-gather-rays.toml"),
+            Claim::SplitCost => include_str!("../../../definitions/split-cost.toml"),
+            Claim::SplitQuadratic => include_str!("../../../definitions/split-quadratic.toml"),
+            Claim::StopRule => include_str!("../../../definitions/stop-rule.toml"),
+            Claim::RangeSearch => include_str!("../../../definitions/range-search.toml"),
+            Claim::KdMemory => include_str!("../../../definitions/kd-memory.toml"),
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
@@ -91,6 +116,11 @@ impl Claim {
             Claim::EdgeDarkening => edge_darkening::run(context),
             Claim::FinalGatherEdges => final_gather_edges::run(context),
             Claim::FinalGatherRays => final_gather_rays::run(context),
+            Claim::SplitCost => split_cost::run(context),
+            Claim::SplitQuadratic => split_quadratic::run(context),
+            Claim::StopRule => stop_rule::run(context),
+            Claim::RangeSearch => range_search::run(context),
+            Claim::KdMemory => kd_memory::run(context),
             Claim::ViewIndependence => view_independence::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
