@@ -110,10 +110,10 @@ fn conclude(p: &Parameters, largest: &[&[Tried]], comparisons: &[Comparison], co
     if swept.iter().any(|ratio| ratio.contains(1.0) && ratio.half_width() > p.precision) {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
     }
-    let words = |ratios: &[Interval], chosen: &dyn Fn(&Interval) -> bool| {
+    let words = |ratios: &[Interval], chosen: &dyn Fn(&[Tried], &Interval) -> bool| {
         let one = |(set, r): (&&[Tried], &Interval)| {
             let title = set[0].set.title();
-            chosen(r).then(|| format!("{title} {:.2} ({:.2} to {:.2})", r.value, r.low, r.high))
+            chosen(set, r).then(|| format!("{title} {:.2} ({:.2} to {:.2})", r.value, r.low, r.high))
         };
         let all: Vec<String> = largest.iter().zip(ratios).filter_map(one).collect();
         if all.is_empty() { "nowhere".into() } else { all.join(", ") }
@@ -123,23 +123,39 @@ fn conclude(p: &Parameters, largest: &[&[Tried]], comparisons: &[Comparison], co
         .iter()
         .map(|set| format!("{} {:.1} ({:.1})", set[0].set.title(), slender(set, PAPER_FULL), slender(set, 0)));
     let reason = format!(
-        "photons tested by the paper's cost over those of the median, {} photons, leaves of one mean size: fewer in {}; as many \
-         in {}; more in {}. On a flat sheet S is shared alike whichever way a piece is cut, so with full leaves these become \
+        "photons tested by the paper's cost over those of the median, {} photons, leaves of one mean size to a few per cent: fewer than leaf sizes \
+         explain in {}; as many in {}; more in {}. On a flat sheet S is shared alike whichever way a piece is cut, so with full leaves these become \
          slivers, typical length over width: {} (the median's). The cost of the grown box: {}{}",
         p.photons[p.photons.len() - 1],
-        words(&swept, &|r| r.high < 1.0),
-        words(&swept, &|r| r.contains(1.0)),
-        words(&swept, &|r| r.low > 1.0),
+        words(&swept, &is_fewer),
+        words(&swept, &|set, r| !is_fewer(set, r) && !is_more(set, r)),
+        words(&swept, &is_more),
         slivers.collect::<Vec<_>>().join(", "),
-        words(&grown, &|_| true),
+        words(&grown, &|_, _| true),
         other_than_expected(comparisons),
     );
-    let verdict = match swept.iter().filter(|ratio| ratio.high < 1.0).count() {
+    let verdict = match largest.iter().zip(&swept).filter(|(set, ratio)| is_fewer(set, ratio)).count() {
         0 => Verdict::DoesNotHold,
         n if n == swept.len() => Verdict::Holds,
         _ => Verdict::HoldsWithinLimits,
     };
     (verdict, reason)
+}
+
+/// The paper's mean leaf over the median's: close to one, and as much as leaves alone can change what is tested.
+fn leaf_ratio(set: &[Tried]) -> f64 {
+    let leaf = |rule: usize| set[rule].leaf_size.mean().unwrap_or(f64::NAN);
+    leaf(PAPER) / leaf(0)
+}
+
+/// Fewer than the median by more than smaller leaves explain.
+fn is_fewer(set: &[Tried], ratio: &Interval) -> bool {
+    ratio.high < leaf_ratio(set).min(1.0)
+}
+
+/// More than the median by more than larger leaves explain.
+fn is_more(set: &[Tried], ratio: &Interval) -> bool {
+    ratio.low > leaf_ratio(set).max(1.0)
 }
 
 /// What was foreseen wrongly is said, whatever the verdict.
