@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
 
 use crate::luminaire::{IntensityTable, read_luminaire};
 use crate::{Emitter, Pattern};
@@ -15,14 +15,18 @@ use super::number::Range;
 use super::object::Object;
 use super::picture::beside;
 use super::scene::Builder;
-use super::transform::turn;
+use super::transform::{turn, unit};
 
-/// A far-field point source whose intensities stand in a file. `flux` (lm) replaces the file's, `tint` multiplies it.
+/// A far-field point source whose intensities stand in a file. `flux` (lm) replaces the file's, `tint` multiplies it. It is
+/// placed by `to_world`, or by `position` and by the `direction` in which its nadir looks, turned there the shortest way
+/// (straight up: about its own y).
 pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
     let file = object.take("filename", &["string"])?;
     let given = object.vector("position", Range::COORDINATE)?;
+    let along = object.vector("direction", Range::ANY)?;
     let placed = object.transform()?;
     check_one_of(&object, given, placed, "position")?;
+    check_one_of(&object, along, placed, "direction")?;
     let flux = object.float("flux", Range::EMISSION)?;
     let tint = object.colour("tint", Range::EMISSION)?.unwrap_or([1.0; 3]);
     if object.float("sampling_weight", Range::ANY)?.is_some() {
@@ -31,9 +35,14 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     let element = object.element;
     object.close(&[])?;
     let file = file.ok_or_else(|| element.error("ies has no filename", "name a luminaire file (.ies or .ldt)"))?;
-    let to_world = turn(&placed.unwrap_or(DAffine3::IDENTITY)).ok_or_else(|| {
-        element.error("to_world of a luminaire shears or mirrors it", "use rotate, lookat and translate alone")
-    })?;
+    let to_world = match along {
+        Some(along) => looking(unit(along).ok_or_else(|| {
+            element.error("direction is zero", "give the direction in which its nadir looks, such as 0 0 -1")
+        })?),
+        None => turn(&placed.unwrap_or(DAffine3::IDENTITY)).ok_or_else(|| {
+            element.error("to_world of a luminaire shears or mirrors it", "use rotate, lookat and translate alone")
+        })?,
+    };
     let table = table(element, file.required("value"), builder)?;
     let scale = flux.map_or(1.0, |flux| flux / table.flux()) * table.brightest();
     let intensity = tint.map(|tint| tint * scale);
@@ -43,6 +52,11 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     }
     let position = given.or(placed.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
     Ok(Emitter::Point { id, position, intensity, pattern: Pattern::Table { table, to_world } })
+}
+
+/// The shortest turn of the nadir to a unit vector.
+fn looking(along: DVec3) -> DMat3 {
+    DMat3::from_quat(DQuat::from_rotation_arc(DVec3::NEG_Z, along))
 }
 
 /// The table of a file, read once; what the file says that is not used becomes a note.

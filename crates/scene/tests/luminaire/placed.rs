@@ -73,6 +73,28 @@ fn lamps_have_places_turns_fluxes_and_tints() {
     assert_eq!(of_lamp, 2, "{:?}", scene.notes);
 }
 
+/// The nadir looks along the direction; where that turns it by less than a half, C0 goes the shortest way.
+#[test]
+fn a_direction_turns_the_nadir() {
+    let file = "<string name='filename' value='lamp.ies'/><point name='position' value='0 0 3'/>";
+    let towards = |value: &str| format!("{file}<vector name='direction' value='{value}'/>");
+    let directions = ["0 0 -2", "0 3 0", "0 0 1", "1 0 -1"].map(towards);
+    let folder = folder(&directions.each_ref().map(String::as_str));
+    let scene = read(folder.path()).unwrap_or_else(|error| panic!("{error}"));
+    let half = 0.5f64.sqrt();
+    for (emitter, (nadir, c0)) in scene.emitters.iter().zip([
+        (DVec3::NEG_Z, DVec3::X),
+        (DVec3::Y, DVec3::X),
+        (DVec3::Z, DVec3::NEG_X),
+        (DVec3::new(half, 0.0, -half), DVec3::new(half, 0.0, half)),
+    ]) {
+        let (position, _, _, to_world) = placed(emitter);
+        assert_eq!(position, DVec3::new(0.0, 0.0, 3.0));
+        assert!((to_world * DVec3::NEG_Z - nadir).length() < 1e-15, "{to_world:?}");
+        assert!((to_world * DVec3::X - c0).length() < 1e-15, "{to_world:?}");
+    }
+}
+
 #[test]
 fn a_scene_stands_for_its_files() {
     let file = "<string name='filename' value='lamp.ies'/>";
