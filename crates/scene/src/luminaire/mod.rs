@@ -14,6 +14,7 @@
 //! The flux of a luminaire is the table's own integral; where the file's statement of it differs, a note says so.
 
 mod eulumdat;
+mod goniometer;
 mod header;
 mod lm63;
 mod symmetry;

@@ -2,6 +2,7 @@
 
 mod broken;
 mod eulumdat;
+mod goniometer;
 mod hostile;
 mod lm63;
 mod placed;
