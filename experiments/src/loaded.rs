@@ -1,9 +1,9 @@
 //! A scene loaded and made ready, and everything that is said of it on the way.
 
-use photonlab_photometry::Channels;
+use photonlab_photometry::{Channels, Response, Spectrum};
 use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
-use photonlab_sampling::Lamps;
-use photonlab_scene::{Needs, Receiver, Scene, World, read::read_scene};
+use photonlab_sampling::PassOptics;
+use photonlab_scene::{Emitter, Needs, Receiver, Scene, World, read::read_scene};
 
 use crate::{
     Failure,
@@ -45,6 +45,7 @@ pub(crate) fn open_map<const C: usize>(
     let Some(path) = &options.map else {
         return Ok(None);
     };
+    refuse_spectral_map(loaded)?;
     for (option, given) in [
         ("photons", options.photons.is_some()),
         ("max-depth", options.max_depth.is_some()),
@@ -71,6 +72,14 @@ pub(crate) fn open_map<const C: usize>(
     }
     settings.limits = header.limits;
     Ok(Some(MapFile::load(path).map_err(|e| Failure::usage(e.to_string()))?))
+}
+
+/// Maps of scenes with wavelengths would have to carry these and what light counts for.
+pub(crate) fn refuse_spectral_map(loaded: &Loaded) -> Result<(), Failure> {
+    if loaded.needs.channels != Channels::Spectral {
+        return Ok(());
+    }
+    Err(Failure::usage("saved maps of scenes with wavelengths are not built yet; measure or render without --map"))
 }
 
 /// What was asked for, with the passes that a saved map has; more than it has are refused.
@@ -104,16 +113,22 @@ pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted
     schedule
 }
 
-/// The lamps of a world in its channels; refuses what emits nothing.
-pub(crate) fn lamps<const C: usize>(loaded: &Loaded, file: &std::path::Path) -> Result<Lamps<C>, Failure> {
-    let lamps = Lamps::new(&loaded.world);
-    if lamps.lamps.is_empty() {
+/// The lamps and coatings of a world in its channels; refuses what emits nothing.
+pub(crate) fn optics<const C: usize>(
+    loaded: &Loaded,
+    file: &std::path::Path,
+    response: Response,
+) -> Result<PassOptics<C>, Failure> {
+    if loaded.world.scene.emitters.iter().all(Emitter::is_black)
+        && loaded.world.scene.shapes.iter().all(|shape| shape.radiance.as_ref().is_none_or(Spectrum::is_black))
+    {
         return Err(Failure::usage(format!(
             "{}:1: scene: every lamp is black; give one a radiance above 0",
             file.display()
         )));
     }
-    Ok(lamps)
+    PassOptics::new(&loaded.world, response)
+        .map_err(|error| Failure::usage(format!("{}:1: scene: {error}", file.display())))
 }
 
 /// Wrong counts are the user's to mend, the rest is not.
@@ -154,6 +169,9 @@ macro_rules! by_channels {
         match $channels {
             photonlab_photometry::Channels::Grey => $function::<1>($($argument),*),
             photonlab_photometry::Channels::Rgb => $function::<3>($($argument),*),
+            photonlab_photometry::Channels::Spectral => {
+                $function::<{ photonlab_photometry::WAVELENGTHS }>($($argument),*)
+            }
         }
     };
 }

@@ -2,7 +2,7 @@
 
 use std::{fmt::Write as _, io::Write as _, path::Path};
 
-use photonlab_photometry::PathClass;
+use photonlab_photometry::{PathClass, Response};
 use photonlab_readout::{Demands, MapFile, MapHeader, Schedule, Settings, Wanted, trace_pass};
 use photonlab_trace::Classes;
 
@@ -10,7 +10,7 @@ use crate::{
     Failure, by_channels,
     command::{self, DirectName, MapVerb},
     interrupt,
-    loaded::{Loaded, lamps, read_failure},
+    loaded::{Loaded, optics, read_failure, refuse_spectral_map},
     system,
 };
 
@@ -49,7 +49,8 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
             )));
         }
     }
-    let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
+    refuse_spectral_map(loaded)?;
+    let optics = optics::<C>(loaded, &arguments.scene.scene, Response::Radiometric)?;
     // The direct view's settings keep every class; which of them are stored is said by --direct.
     let mut reading = options.clone();
     reading.direct = None;
@@ -62,11 +63,11 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
     let schedule = Schedule::new(
         &wanted,
         1,
-        &Demands { gather_rays: 1, fewest_photons: lamps.lamps.len() as u64, most_samples: 1 },
+        &Demands { gather_rays: 1, fewest_photons: optics.any().lamps.lamps.len() as u64, most_samples: 1 },
     );
     let passes = schedule.ends.passes.unwrap_or(1);
     let traced = (0..passes)
-        .map(|pass| trace_pass(&loaded.world, &lamps, &settings, classes, pass as u32, schedule.photons(pass)));
+        .map(|pass| trace_pass(&loaded.world, optics.any(), &settings, classes, pass as u32, schedule.photons(pass)));
     let header = MapHeader {
         channels: C as u32,
         identity: loaded.identity,

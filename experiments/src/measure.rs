@@ -3,7 +3,7 @@
 use std::{io::Write, time::Instant};
 
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
-use photonlab_photometry::{Colour, PathClass};
+use photonlab_photometry::{Colour, PathClass, Response, UnitSystem};
 use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
 use photonlab_scene::{Emitter, Needs, Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
@@ -13,7 +13,7 @@ use crate::{
     command::{self, MethodName, Options},
     fixed_command::fixed_command,
     goniometer::LuminaireFile,
-    loaded::{Loaded, channel_names, lamps, open_map, read_failure, schedule, sensors, wanted},
+    loaded::{Loaded, channel_names, open_map, optics, read_failure, schedule, sensors, wanted},
     progress::Progress,
     system,
 };
@@ -55,12 +55,12 @@ fn run<const C: usize>(
     start: Instant,
 ) -> Result<Measurement, Failure> {
     let options = &Options { method: method_for(cells, arguments.options.method), ..arguments.options.clone() };
-    let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
+    let optics = optics::<C>(loaded, &arguments.scene.scene, response(options))?;
     let mut settings = options.settings(&loaded.world.scene)?;
     is_readable(&loaded.world.scene, cells, &settings)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
-    let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Worst };
+    let session = Session { world, optics: &optics, needs, settings, confidence, error_over: ErrorOver::Worst };
     let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
@@ -77,7 +77,7 @@ fn run<const C: usize>(
         stopped: outcome.stopped,
         channels: channel_names(outcome.channels),
         needs: loaded.needs.list.iter().map(|n| Need { need: n.need.clone(), reason: n.reason.clone() }).collect(),
-        ledger: flux_ledger(outcome.ledger.as_ref()),
+        ledger: flux_ledger(outcome.ledger.as_ref(), outcome.results),
         readings: readings(&loaded.world.scene, cells, &outcome, options, &settings, &loaded.needs)?,
     })
 }
@@ -98,6 +98,14 @@ pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
              that were ended early ({share:.3} % of the emitted flux)",
             ledger.trapped_paths
         );
+    }
+}
+
+/// What light of a scene with wavelengths counts for.
+fn response(options: &Options) -> Response {
+    match options.unit_system() {
+        UnitSystem::Radiometric => Response::Radiometric,
+        UnitSystem::Photometric => Response::Photometric,
     }
 }
 
@@ -132,10 +140,10 @@ fn readings<const C: usize>(
     let passes = outcome.passes;
     let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
     let doubt = doubt(scene, settings, needs);
-    let emits: Vec<bool> = (0..C).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
+    let emits: Vec<bool> = (0..outcome.results).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
     let mut readings = Vec::new();
     for (cell, result) in cells.iter().zip(&outcome.cells) {
-        for channel in 0..C {
+        for channel in 0..outcome.results {
             let place = Place {
                 sensor: scene.sensors[cell.sensor].id.clone(),
                 quantity: cell.quantity().in_system(options.unit_system()),
@@ -200,9 +208,9 @@ pub(crate) fn doubt(scene: &Scene, settings: &Settings, needs: &Needs) -> Option
     None
 }
 
-fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>) -> FluxLedger {
+fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>, results: usize) -> FluxLedger {
     let Some(ledger) = ledger else {
-        let none = vec![0.0; C];
+        let none = vec![0.0; results];
         let total = FluxBook {
             emitted: none.clone(),
             absorbed: none.clone(),
@@ -212,12 +220,13 @@ fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>) -> FluxLedger {
         };
         return FluxLedger { total, ..FluxLedger::default() };
     };
+    let list = |flux: Colour<C>| flux.0[..results].to_vec();
     let book = |emitted: Colour<C>, book: &Book<C>| FluxBook {
-        emitted: emitted.0.to_vec(),
-        absorbed: book.absorbed.0.to_vec(),
-        escaped: book.escaped.0.to_vec(),
-        cut_off: book.cut_off.0.to_vec(),
-        roulette: book.roulette().0.to_vec(),
+        emitted: list(emitted),
+        absorbed: list(book.absorbed),
+        escaped: list(book.escaped),
+        cut_off: list(book.cut_off),
+        roulette: list(book.roulette()),
     };
     let class = |class: PathClass| {
         let of_class = &ledger.classes[class as usize];

@@ -1,6 +1,7 @@
 //! `photonlab render`: an image with its error layers.
 
 use photonlab_measure::student_t_quantile;
+use photonlab_photometry::{Channels, Response, UnitSystem};
 use photonlab_readout::{Cell, ErrorOver, Outcome, Session, Source};
 use photonlab_scene::{Film, Receiver};
 
@@ -8,7 +9,7 @@ use crate::{
     Failure, by_channels, command,
     fixed_command::fixed_command,
     image::{Image, Layers},
-    loaded::{Loaded, lamps, open_map, read_failure, schedule, sensors, wanted},
+    loaded::{Loaded, open_map, optics, read_failure, schedule, sensors, wanted},
     measure::{doubt, warn},
     progress::Progress,
     system,
@@ -57,12 +58,19 @@ fn resize(loaded: &mut Loaded, sensor: usize, [width, height]: [u32; 2]) {
 
 fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usize) -> Result<Layers, Failure> {
     let options = &arguments.options;
-    let lamps = lamps::<C>(loaded, &arguments.scene.scene)?;
+    let response = match options.unit_system() {
+        UnitSystem::Radiometric => Response::Radiometric,
+        UnitSystem::Photometric => Response::Image,
+    };
+    if loaded.needs.channels == Channels::Spectral && response == Response::Radiometric {
+        say!("note: radiance of all wavelengths together makes a grey image; --units photometric gives colours");
+    }
+    let optics = optics::<C>(loaded, &arguments.scene.scene, response)?;
     let mut settings = options.settings(&loaded.world.scene)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
-    let session = Session { world, lamps: &lamps, needs, settings, confidence, error_over: ErrorOver::Image };
+    let session = Session { world, optics: &optics, needs, settings, confidence, error_over: ErrorOver::Image };
     let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
@@ -91,7 +99,7 @@ fn layers<const C: usize>(
 ) -> Layers {
     let quantile = (outcome.passes > 1).then(|| student_t_quantile(confidence, (outcome.passes - 1) as f64));
     let image = |of: &dyn Fn(usize, usize) -> f64| {
-        let pixel = |cell: usize| std::array::from_fn(|c| of(cell, if C == 1 { 0 } else { c }) as f32);
+        let pixel = |cell: usize| std::array::from_fn(|c| of(cell, if outcome.results == 1 { 0 } else { c }) as f32);
         Image {
             width: film.width as usize,
             height: film.height as usize,

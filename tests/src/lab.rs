@@ -6,14 +6,12 @@ use std::{
 };
 
 use photonlab_gather::AreaModel;
+use photonlab_photometry::{Palette, Response};
 use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
-use photonlab_sampling::{EmissionPlan, Lamps};
-use photonlab_scene::{
-    Needs, World,
-    read::{read_scene, read_scene_str},
-};
+use photonlab_sampling::{EmissionPlan, Optics, PassOptics};
+use photonlab_scene::{Needs, World, read::{read_scene, read_scene_str}};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
 
 /// Confidence of the intervals that may end a run; no test of this crate ends one by its error.
@@ -65,10 +63,10 @@ impl Lab {
         keep: Classes,
         limits: Limits,
     ) -> Traced<C> {
-        let lamps = Lamps::new(&self.world);
-        let plan = EmissionPlan::new(&lamps, photons).expect("photons for every lamp");
+        let optics = Optics::new(&self.world, Palette::Channels);
+        let plan = EmissionPlan::new(&optics.lamps, photons).expect("photons for every lamp");
         let job = Job { seed, pass, limits, keep };
-        let mut traced = trace(&self.world, &lamps, &plan, &job).expect("a scene that absorbs");
+        let mut traced = trace(&self.world, &optics, &plan, &job).expect("a scene that absorbs");
         let middle = self.world.middle().to_array();
         for position in &mut traced.positions {
             *position = std::array::from_fn(|axis| (f64::from(position[axis]) + middle[axis]) as f32);
@@ -94,10 +92,10 @@ impl Lab {
         passes: u64,
         samples: u64,
     ) -> Outcome<C> {
-        let lamps = Lamps::new(&self.world);
+        let optics = PassOptics::new(&self.world, Response::Radiometric).expect("lamps that count");
         let (world, needs) = (&self.world, &self.needs);
         let session =
-            Session { world, lamps: &lamps, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
+            Session { world, optics: &optics, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
         let wanted =
             Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
         let schedule = Schedule::new(&wanted, cells.len(), &session.demands());

@@ -24,10 +24,10 @@ fn judge_reflection<const C: usize>(family: &mut Family, xml: &str, photons: u64
     let lab = Lab::new(xml);
     let ledgers = ledgers::<C>(&lab, photons, seed);
     for (index, shape) in lab.world.scene.shapes.iter().enumerate() {
-        let Bsdf::Diffuse { reflectance } = shape.bsdf else {
+        let Bsdf::Diffuse { reflectance } = &shape.bsdf else {
             continue;
         };
-        let reflectance = Colour::<C>::from_rgb(reflectance);
+        let reflectance = Colour::<C>::from_rgb(reflectance.rgb().expect("no curve"));
         for channel in 0..C {
             let rho = reflectance[channel];
             let difference = |ledger: &Ledger<C>| {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, Sight, Stream, sample_direct, warp};
+use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
 use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
@@ -35,8 +35,8 @@ pub struct GatherMaps<'m, const C: usize> {
 pub struct Gatherer<'w, const C: usize> {
     /// The scene.
     pub world: &'w World,
-    /// Its lamps.
-    pub lamps: &'w Lamps<C>,
+    /// Its lamps and coatings.
+    pub optics: &'w Optics<C>,
     /// The maps; `None` traces paths.
     pub maps: Option<GatherMaps<'w, C>>,
     /// When a path ends early.
@@ -75,7 +75,7 @@ impl<const C: usize> Gatherer<'_, C> {
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
             let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps };
-            let landing = segment::follow(self.world, self.lamps, &self.limits, start, stream);
+            let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
                 let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(sight.normal));
@@ -117,7 +117,7 @@ impl<const C: usize> Gatherer<'_, C> {
         if !self.limits.allows(used + 1) {
             return Light::default();
         }
-        let Some(sample) = sample_direct(self.world, self.lamps, at, sight.normal, xi) else {
+        let Some(sample) = sample_direct(self.world, &self.optics.lamps, at, sight.normal, xi) else {
             return Light::default();
         };
         let cosine = sample.direction.dot(sight.normal);

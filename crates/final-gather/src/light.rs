@@ -1,6 +1,6 @@
 //! What one look at a point found.
 
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Colour, Palette};
 
 /// One sample of the light at a point: irradiance in W/m^2 or lx, and what is known of its bias.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -34,6 +34,17 @@ impl<const C: usize> Light<C> {
             irradiance: self.irradiance * weight,
             bias: self.bias * weight,
             unresolved: self.unresolved * weight,
+            photons: self.photons,
+            reads: self.reads,
+        }
+    }
+
+    /// The results of what the channels carry.
+    pub fn developed(&self, palette: &Palette<C>) -> Self {
+        Self {
+            irradiance: palette.develop(self.irradiance),
+            bias: palette.develop(self.bias),
+            unresolved: palette.develop(self.unresolved),
             photons: self.photons,
             reads: self.reads,
         }

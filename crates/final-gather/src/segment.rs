@@ -2,8 +2,7 @@
 
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
-    Followed, Interaction, Lamps, LightDraw, Matte, Sight, Stream, balance_pdf, goes_through, interaction,
-    lamp_pdf_solid_angle,
+    Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, balance_pdf, goes_through, lamp_pdf_solid_angle,
 };
 use photonlab_scene::{Hit, Ray, World};
 
@@ -68,7 +67,7 @@ pub struct Start {
 /// A ray on its way.
 struct Walk<'w, const C: usize> {
     world: &'w World,
-    lamps: &'w Lamps<C>,
+    optics: &'w Optics<C>,
     ray: Ray,
     from: Option<u32>,
     weight: Colour<C>,
@@ -81,7 +80,7 @@ struct Walk<'w, const C: usize> {
 /// Follows a ray through specular surfaces to the first matte one.
 pub fn follow<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     limits: &EyeLimits,
     start: Start,
     stream: &mut Stream,
@@ -96,7 +95,7 @@ pub fn follow<const C: usize>(
     };
     let mut walk = Walk {
         world,
-        lamps,
+        optics,
         ray: start.ray,
         from: start.from,
         weight: Colour::ONE,
@@ -112,8 +111,8 @@ pub fn follow<const C: usize>(
             break;
         };
         walk.landing.distance += hit.distance;
-        let (interaction, opacity) = interaction(world, &hit);
-        match if goes_through(opacity, stream) { Interaction::Passed } else { interaction } {
+        let (interaction, opacity) = optics.interaction(world, &hit);
+        match if goes_through(opacity, stream) { &Interaction::Passed } else { interaction } {
             Interaction::Passed => {
                 walk.ray = Ray::new(hit.point.position, walk.ray.direction);
                 walk.from = Some(hit.point.primitive);
@@ -136,12 +135,18 @@ pub fn follow<const C: usize>(
             Interaction::Followed(followed) => {
                 walk.arrive(&hit);
                 let seeks = start.seeks_lamps && limits.allows(walk.landing.segments + 1);
-                if seeks {
-                    walk.seek_lamp(&hit, &followed, stream);
+                if !walk.go_on(&hit, followed, seeks, stream) {
+                    break;
                 }
-                let Some(onward) = followed.draw(&walk.ray, &hit, stream) else { break };
-                let pdf = onward.pdf_solid_angle.filter(|_| seeks);
-                walk.turn(&hit, onward.ray, onward.share * onward.compression, pdf);
+            }
+            Interaction::Dispersed(dispersive) => {
+                walk.arrive(&hit);
+                let seeks = start.seeks_lamps && limits.allows(walk.landing.segments + 1);
+                let (followed, factor) = dispersive.settle(walk.weight, stream);
+                walk.weight = walk.weight * factor;
+                if !walk.go_on(&hit, &followed, seeks, stream) {
+                    break;
+                }
             }
         }
         specular += 1;
@@ -156,23 +161,24 @@ impl<const C: usize> Walk<'_, C> {
     /// Counts the segment and what the surface emits.
     fn arrive(&mut self, hit: &Hit) {
         self.landing.segments += 1;
-        let radiance = self.lamps.emitted(hit.point.primitive, hit.front);
+        let radiance = self.optics.lamps.emitted(hit.point.primitive, hit.front);
         if radiance.is_zero() {
             return;
         }
         let (primitive, from, to) = (hit.point.primitive, self.ray.origin, hit.point.position);
         if self.bent {
-            let drawn = self.rough_pdf.map(|pdf| (pdf, balance_pdf(self.world, self.lamps, primitive, from, to)));
+            let drawn =
+                self.rough_pdf.map(|pdf| (pdf, balance_pdf(self.world, &self.optics.lamps, primitive, from, to)));
             self.behind_specular(radiance, drawn);
         } else {
-            let shared_pdf = lamp_pdf_solid_angle(self.world, self.lamps, primitive, from, to);
+            let shared_pdf = lamp_pdf_solid_angle(self.world, &self.optics.lamps, primitive, from, to);
             self.landing.first_emission = Some(Emitted { radiance, shared_pdf });
         }
     }
 
     /// Counts what comes from infinity.
     fn escape(&mut self) {
-        let Some((radiance, drawn)) = self.lamps.from_infinity(self.ray.direction) else { return };
+        let Some((radiance, drawn)) = self.optics.lamps.from_infinity(self.ray.direction) else { return };
         if self.bent {
             self.behind_specular(radiance, self.rough_pdf.map(|pdf| (pdf, drawn)));
         } else {
@@ -185,6 +191,17 @@ impl<const C: usize> Walk<'_, C> {
     fn behind_specular(&mut self, radiance: Colour<C>, pdfs: Option<(f64, f64)>) {
         let balance = pdfs.map_or(1.0, |(pdf, drawn)| pdf / (pdf + drawn));
         self.landing.emitted += radiance * self.weight * balance;
+    }
+
+    /// Draws how the ray goes on, after looking for lamps if it `seeks` any; false if it ends.
+    fn go_on(&mut self, hit: &Hit, followed: &Followed<C>, seeks: bool, stream: &mut Stream) -> bool {
+        if seeks {
+            self.seek_lamp(hit, followed, stream);
+        }
+        let Some(onward) = followed.draw(&self.ray, hit, stream) else { return false };
+        let pdf = onward.pdf_solid_angle.filter(|_| seeks);
+        self.turn(hit, onward.ray, onward.share * onward.compression, pdf);
+        true
     }
 
     /// Goes on along another ray.
@@ -201,7 +218,7 @@ impl<const C: usize> Walk<'_, C> {
         let Followed::Rough(_) = followed else { return };
         self.landing.met_rough = true;
         let xi = [stream.next(), stream.next(), stream.next()];
-        let Some(draw) = LightDraw::new(self.world, self.lamps, hit.point.position, xi) else { return };
+        let Some(draw) = LightDraw::new(self.world, &self.optics.lamps, hit.point.position, xi) else { return };
         let Some((shown, pdf)) = followed.eval(&self.ray, hit, draw.direction) else { return };
         if shown.is_zero() {
             return;

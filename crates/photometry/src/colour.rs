@@ -4,6 +4,10 @@ use std::ops::{Add, AddAssign, Index, IndexMut, Mul, Neg, Sub};
 
 use serde::{Deserialize, Serialize};
 
+/// Channels of a scene with data by wavelength: enough that a pass sees a smooth spectrum well (its error falls as this to
+/// the power -1.5), few enough that a photon stays small.
+pub const WAVELENGTHS: usize = 16;
+
 /// Which channels a scene carries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Channels {
@@ -11,13 +15,15 @@ pub enum Channels {
     Grey,
     /// Three channels, `R` `G` `B`.
     Rgb,
+    /// Wavelengths drawn anew for each pass, whose sum is one result, `Y`: the scene has data by wavelength.
+    Spectral,
 }
 
 impl Channels {
     /// The channels' names in the order in which every list of channels is written.
     pub fn names(self) -> &'static [&'static str] {
         match self {
-            Channels::Grey => &["Y"],
+            Channels::Grey | Channels::Spectral => &["Y"],
             Channels::Rgb => &["R", "G", "B"],
         }
     }
@@ -25,7 +31,8 @@ impl Channels {
 
 /// `C` channels of one quantity in double precision; its unit is that of the quantity it holds.
 ///
-/// `C` is 1 for grey scenes and 3 for RGB, chosen once per scene, so that a grey scene pays for one channel.
+/// `C` is 1 for grey scenes, 3 for RGB and [`WAVELENGTHS`] for spectra, chosen once per scene, so that a grey scene pays for
+/// one channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colour<const C: usize>(pub [f64; C]);
 

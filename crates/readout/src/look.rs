@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use photonlab_final_gather::{EyeLimits, Gatherer, Light, Start, estimate, follow};
 use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Lamps, Purpose, Sight, Stream, sample_direct};
+use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
 use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps};
@@ -13,7 +13,7 @@ use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, m
 /// Looks into one pass's light.
 pub(crate) struct Look<'p, const C: usize> {
     pub(crate) world: &'p World,
-    pub(crate) lamps: &'p Lamps<C>,
+    pub(crate) optics: &'p Optics<C>,
     pub(crate) settings: &'p Settings,
     pub(crate) maps: &'p PassMaps<C>,
     /// False if no ray from a diffuse point can bring light of its own.
@@ -68,7 +68,7 @@ impl<const C: usize> Look<'_, C> {
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y]),
         };
         let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true };
-        let landing = follow(self.world, self.lamps, &self.limits(), start, &mut eye);
+        let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
         let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
         let mut light = Light { irradiance: emitted, ..Light::default() };
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
@@ -109,7 +109,7 @@ impl<const C: usize> Look<'_, C> {
                         matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps());
                     let gatherer = Gatherer {
                         world: self.world,
-                        lamps: self.lamps,
+                        optics: self.optics,
                         maps,
                         limits: self.limits(),
                         looks_around: self.looks_around,
@@ -121,7 +121,7 @@ impl<const C: usize> Look<'_, C> {
                     let mut one = self.read_map(at, &sight, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
-                        let direct = sample_direct(self.world, self.lamps, at, sight.normal, xi);
+                        let direct = sample_direct(self.world, &self.optics.lamps, at, sight.normal, xi);
                         one.irradiance += direct.map_or(Colour::ZERO, |d| {
                             let weight = sight.weight(d.direction.dot(sight.normal));
                             d.irradiance * (weight / (1.0 + seed.share * d.point_factor))

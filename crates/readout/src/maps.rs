@@ -4,7 +4,7 @@ use photonlab_final_gather::{GatherMaps, MapWithRadius};
 use photonlab_gather::{PhotonMap, Scratch};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon};
-use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, Job, Ledger, trace};
 
@@ -39,15 +39,15 @@ pub struct PassPhotons<const C: usize> {
 /// Traces one pass.
 pub fn trace_pass<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     settings: &Settings,
     keep: Classes,
     pass: u32,
     photons: u64,
 ) -> Result<PassPhotons<C>, ReadError> {
-    let plan = EmissionPlan::new(lamps, photons)?;
+    let plan = EmissionPlan::new(&optics.lamps, photons)?;
     let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
-    let traced = trace(world, lamps, &plan, &job)?;
+    let traced = trace(world, optics, &plan, &job)?;
     Ok(PassPhotons {
         positions: traced.positions,
         photons: traced.photons,

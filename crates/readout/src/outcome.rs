@@ -96,7 +96,9 @@ pub struct Outcome<const C: usize> {
     pub stopped: Stopped,
     /// True if the run ended because no number of further passes would have reached the wanted error.
     pub out_of_reach: bool,
-    /// Flux of all lamps.
+    /// Channels that hold results, the first ones; as many as `C` but for scenes with wavelengths.
+    pub results: usize,
+    /// Flux of all lamps; of some pass, where wavelengths are drawn for each.
     pub lamp_flux: Colour<C>,
     /// Mean radius averaged over, metres; `None` without a fixed-radius gather.
     pub radius: Option<f64>,
@@ -115,8 +117,8 @@ pub enum ErrorOver {
 
 impl ErrorOver {
     /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
-    pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], confidence: f64) -> Option<f64> {
-        self.combine(cells, confidence, |cell, c, t| {
+    pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], results: usize, confidence: f64) -> Option<f64> {
+        self.combine(cells, results, confidence, |cell, c, t| {
             let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
             let known = cell.bias[c].mean().unwrap_or(0.0).abs()
                 + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs();
@@ -126,8 +128,13 @@ impl ErrorOver {
 
     /// The part of it that no number of further passes of the same radius can take away: the bias, where it is
     /// significant, and what is gathered across edges.
-    pub(crate) fn floor_of<const C: usize>(self, cells: &[CellResult<C>], confidence: f64) -> Option<f64> {
-        self.combine(cells, confidence, |cell, c, t| {
+    pub(crate) fn floor_of<const C: usize>(
+        self,
+        cells: &[CellResult<C>],
+        results: usize,
+        confidence: f64,
+    ) -> Option<f64> {
+        self.combine(cells, results, confidence, |cell, c, t| {
             let significant =
                 |r: &Replicates| (r.mean().unwrap_or(0.0).abs() - t * r.std_error().unwrap_or(0.0)).max(0.0);
             significant(&cell.bias[c]) + significant(&cell.unresolved[c])
@@ -137,6 +144,7 @@ impl ErrorOver {
     fn combine<const C: usize>(
         self,
         cells: &[CellResult<C>],
+        results: usize,
         confidence: f64,
         half_width: impl Fn(&CellResult<C>, usize, f64) -> f64,
     ) -> Option<f64> {
@@ -146,11 +154,11 @@ impl ErrorOver {
         }
         // One quantile serves all cells.
         let t = student_t_quantile(confidence, (passes - 1) as f64);
-        let each = || cells.iter().flat_map(|cell| (0..C).map(move |c| (cell, c)));
+        let each = || cells.iter().flat_map(|cell| (0..results).map(move |c| (cell, c)));
         let value = |cell: &CellResult<C>, c: usize| cell.value[c].mean().unwrap_or(0.0).abs();
         match self {
             ErrorOver::Image => {
-                let count = (cells.len() * C) as f64;
+                let count = (cells.len() * results) as f64;
                 let squares: f64 = each().map(|(cell, c)| half_width(cell, c, t).powi(2)).sum();
                 let mean = each().map(|(cell, c)| value(cell, c)).sum::<f64>() / count;
                 (mean > 0.0).then(|| (squares / count).sqrt() / mean)

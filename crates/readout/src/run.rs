@@ -42,6 +42,7 @@ impl<const C: usize> Run<C> {
     pub(crate) fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
         let per_pass = 1.0 / self.passes as f64;
         let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path | Method::Bins);
+        let optics = session.optics.any();
         Outcome {
             ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
@@ -50,7 +51,8 @@ impl<const C: usize> Run<C> {
             passes: self.passes,
             samples: self.samples,
             stopped,
-            lamp_flux: session.lamps.total_flux(),
+            lamp_flux: optics.palette.develop(optics.lamps.total_flux()),
+            results: session.optics.results(),
             out_of_reach: self.out_of_reach,
             channels: session.needs.channels,
         }

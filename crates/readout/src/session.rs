@@ -6,7 +6,7 @@ use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{EmissionPlan, Lamps, PlanError, Purpose, Stream};
+use photonlab_sampling::{EmissionPlan, NothingCounts, Optics, PassOptics, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Job, TraceError, count};
 use rayon::prelude::*;
@@ -43,6 +43,16 @@ pub enum Source<'f, const C: usize> {
     Map(&'f MapFile<C>),
 }
 
+impl<const C: usize> Source<'_, C> {
+    /// The seed by which the photons' wavelengths were drawn, or are to be.
+    fn seed(&self, of_run: u64) -> u64 {
+        match self {
+            Source::Trace => of_run,
+            Source::Map(file) => file.header.seed,
+        }
+    }
+}
+
 /// Watches a run.
 pub trait Observer: Sync {
     /// Called after each pass with the passes done, the time since the start and the error so far.
@@ -58,6 +68,9 @@ pub enum ReadError {
     /// Photons could not be followed to an end.
     #[error(transparent)]
     Trace(#[from] TraceError),
+    /// Nothing that the lamps emit counts.
+    #[error(transparent)]
+    Dark(#[from] NothingCounts),
     /// Photons could not be ordered.
     #[error("the photon map cannot be built: {0}")]
     Map(#[from] photonlab_kdtree::BuildError),
@@ -67,8 +80,8 @@ pub enum ReadError {
 pub struct Session<'w, const C: usize> {
     /// The scene.
     pub world: &'w World,
-    /// Its lamps.
-    pub lamps: &'w Lamps<C>,
+    /// Its lamps and coatings.
+    pub optics: &'w PassOptics<C>,
     /// What it needs.
     pub needs: &'w Needs,
     /// How it is read.
@@ -86,7 +99,7 @@ impl<const C: usize> Session<'_, C> {
         Demands {
             gather_rays: self.settings.gather_rays,
             fewest_photons: if self.uses_maps() || self.settings.method == Method::Bins {
-                self.lamps.lamps.len().max(1) as u64
+                self.optics.any().lamps.lamps.len().max(1) as u64
             } else {
                 0
             },
@@ -109,7 +122,7 @@ impl<const C: usize> Session<'_, C> {
     /// True if a ray from a diffuse point can bring light that neither lamp sampling nor the caustic map gives.
     fn looks_around(&self) -> bool {
         let by_paths = self.settings.method == Method::Path && self.needs.caustic;
-        self.needs.indirect || by_paths || !self.lamps.are_sampled_alone(self.world)
+        self.needs.indirect || by_paths || !self.optics.any().lamps.are_sampled_alone(self.world)
     }
 
     /// Reads all cells.
@@ -135,7 +148,7 @@ impl<const C: usize> Session<'_, C> {
             longest = longest.max(begun.elapsed());
             let done = run.passes;
             let looks = done >= next_look;
-            let error = looks.then(|| self.error_over.of(&run.cells, self.confidence)).flatten();
+            let error = looks.then(|| self.error_over.of(&run.cells, self.optics.results(), self.confidence)).flatten();
             observer.pass_done(done, start.elapsed(), error);
             if looks {
                 next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
@@ -171,7 +184,10 @@ impl<const C: usize> Session<'_, C> {
         // What shrinks is given more passes before it is given up.
         let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
         run.passes >= patience
-            && self.error_over.floor_of(&run.cells, self.confidence).is_none_or(|floor| floor > target)
+            && self
+                .error_over
+                .floor_of(&run.cells, self.optics.results(), self.confidence)
+                .is_none_or(|floor| floor > target)
     }
 
     /// Divides the passes, after a pilot whose work is not used, so that enough of them end within the time limit.
@@ -204,12 +220,13 @@ impl<const C: usize> Session<'_, C> {
         if self.settings.method == Method::Bins {
             return self.count(run, cells, schedule);
         }
-        let maps = self.maps(run, number, schedule, source)?;
+        let optics = &*self.optics.of_pass(self.world, source.seed(self.settings.seed), number as u32);
+        let maps = self.maps(run, optics, number, schedule, source)?;
         let samples = schedule.samples(number);
-        let shares: Vec<f64> = cells.iter().map(|cell| share(self.world, self.lamps, cell)).collect();
+        let shares: Vec<f64> = cells.iter().map(|cell| share(self.world, &optics.lamps, cell)).collect();
         let look = Look {
             world: self.world,
-            lamps: self.lamps,
+            optics,
             settings: &self.settings,
             maps: &maps,
             looks_around: self.looks_around(),
@@ -232,13 +249,14 @@ impl<const C: usize> Session<'_, C> {
                 sum
             })
             .collect();
-        let probed = self.probes(cells, number as u32, samples);
+        let probed = self.probes(cells, optics, number as u32, samples);
         for ((index, parts), probed) in found.chunks(blocks as usize).enumerate().zip(probed) {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
             let mut mean = light.over(samples as f64);
             mean.irradiance += probed;
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
+            let mean = mean.developed(&optics.palette);
             run.cells[index].push(&mean, light.photons, parts.iter().all(|part| part.dark));
         }
         run.passes += 1;
@@ -248,24 +266,25 @@ impl<const C: usize> Session<'_, C> {
 
     /// One pass of photons counted where they arrive.
     fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
-        let plan = EmissionPlan::new(self.lamps, schedule.photons(run.passes))?;
+        let optics = &*self.optics.of_pass(self.world, self.settings.seed, run.passes as u32);
+        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes))?;
         let settings = &self.settings;
         let job =
             Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
         let bins = Bins::new(self.world, cells);
-        let counted = count(self.world, self.lamps, &plan, &job, cells.len(), &bins)?;
+        let counted = count(self.world, optics, &plan, &job, cells.len(), &bins)?;
         for (index, cell) in run.cells.iter_mut().enumerate() {
             let irradiance = counted.flux[index] * (1.0 / bins.measure[index]);
             let light = Light { irradiance, reads: 1.0, ..Light::default() };
-            cell.push(&light, counted.photons[index] as f64, false);
+            cell.push(&light.developed(&optics.palette), counted.photons[index] as f64, false);
         }
-        run.book(plan.photons(), &counted.ledger);
+        run.book(plan.photons(), &counted.ledger.map(|flux| optics.palette.develop(flux)));
         run.passes += 1;
         Ok(())
     }
 
     /// What rays from point lamps add to each cell, where direct light is sampled.
-    fn probes(&self, cells: &[Cell], pass: u32, points: u64) -> Vec<Colour<C>> {
+    fn probes(&self, cells: &[Cell], optics: &Optics<C>, pass: u32, points: u64) -> Vec<Colour<C>> {
         let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
         if from_map && self.settings.direct == Direct::Photons {
             return vec![Colour::ZERO; cells.len()];
@@ -274,7 +293,7 @@ impl<const C: usize> Session<'_, C> {
         of_sensors
             .flat_map(|of_sensor| {
                 let number = of_sensor[0].sensor as u64;
-                probe(self.world, self.lamps, of_sensor, points, |ray| {
+                probe(self.world, &optics.lamps, of_sensor, points, |ray| {
                     Stream::new(self.settings.seed, Purpose::Probes, pass, number << 44 | ray)
                 })
             })
@@ -284,6 +303,7 @@ impl<const C: usize> Session<'_, C> {
     fn maps(
         &self,
         run: &mut Run<C>,
+        optics: &Optics<C>,
         number: u64,
         schedule: &Schedule,
         source: &Source<'_, C>,
@@ -295,10 +315,10 @@ impl<const C: usize> Session<'_, C> {
             Source::Map(file) => file.passes[number as usize].clone(),
             Source::Trace => {
                 let count = schedule.photons(number);
-                trace_pass(self.world, self.lamps, &self.settings, self.settings.classes(), number as u32, count)?
+                trace_pass(self.world, optics, &self.settings, self.settings.classes(), number as u32, count)?
             }
         };
-        run.book(photons.emitted, &photons.ledger);
+        run.book(photons.emitted, &photons.ledger.map(|flux| optics.palette.develop(flux)));
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)

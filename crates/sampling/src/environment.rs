@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Colour, Palette};
 use photonlab_scene::{EnvironmentLight, Sky};
 
 use crate::{Stream, environment_table::Table, warp};
@@ -28,18 +28,18 @@ enum Kind<const C: usize> {
 
 impl<const C: usize> Environment<C> {
     /// Prepares an environment.
-    pub fn new(light: &EnvironmentLight) -> Self {
+    pub fn new(light: &EnvironmentLight, palette: &Palette<C>) -> Self {
         match light {
             EnvironmentLight::Constant { radiance } => {
-                let radiance = Colour::from_rgb(*radiance);
+                let radiance = palette.emission(radiance);
                 Self { kind: Kind::Constant(radiance), total: radiance * (4.0 * PI) }
             }
             EnvironmentLight::Sky { radiance, sky } => {
-                let radiance = Colour::from_rgb(*radiance);
+                let radiance = palette.emission(radiance);
                 Self { kind: Kind::Sky { radiance, sky: *sky }, total: radiance * sky.integral() }
             }
             EnvironmentLight::Map(map) => {
-                let table = Table::new(map);
+                let table = Table::new(map, palette);
                 Self { total: table.total(), kind: Kind::Map(table) }
             }
         }
@@ -92,6 +92,7 @@ mod tests {
     use super::*;
     use crate::Purpose;
     use glam::DMat3;
+    use photonlab_photometry::Spectrum;
     use photonlab_scene::{SkyLaw, SkyMap};
 
     fn picture() -> EnvironmentLight {
@@ -105,8 +106,8 @@ mod tests {
     fn all() -> [EnvironmentLight; 3] {
         let law = SkyLaw::General { kind: 12, sun: DVec3::new(0.6, 0.0, 0.8) };
         let sky = Sky { zenith: DVec3::new(0.0, 0.6, 0.8), law };
-        let constant = EnvironmentLight::Constant { radiance: [1.0, 2.0, 3.0] };
-        [constant, EnvironmentLight::Sky { radiance: [1.0; 3], sky }, picture()]
+        let constant = EnvironmentLight::Constant { radiance: Spectrum::Rgb([1.0, 2.0, 3.0]) };
+        [constant, EnvironmentLight::Sky { radiance: Spectrum::Uniform(1.0), sky }, picture()]
     }
 
     /// Means over draws and over uniform directions, weighted by their densities: the total, and a first moment. 18
@@ -115,7 +116,7 @@ mod tests {
     fn draws_densities_and_totals_agree() {
         let n = 400_000;
         for light in all() {
-            let environment = Environment::<3>::new(&light);
+            let environment = Environment::<3>::new(&light, &Palette::Channels);
             let mut stream = Stream::new(29, Purpose::Synthetic, 0, 0);
             for c in 0..3 {
                 for test in [|_: DVec3| 1.0, |d: DVec3| d.x - 0.5 * d.y] {
@@ -141,7 +142,7 @@ mod tests {
     #[test]
     fn the_density_is_one() {
         for light in all() {
-            let environment = Environment::<3>::new(&light);
+            let environment = Environment::<3>::new(&light, &Palette::Channels);
             let mut stream = Stream::new(31, Purpose::Synthetic, 0, 0);
             let n = 200_000;
             let (mut sum, mut squares) = (0.0, 0.0);

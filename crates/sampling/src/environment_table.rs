@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec3};
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Colour, Palette, Spectrum};
 use photonlab_scene::SkyMap;
 
 /// A picture in azimuth and polar angle, bilinear as in Mitsuba: columns have their centres half a column from the edge, the
@@ -20,9 +20,10 @@ pub(crate) struct Table<const C: usize> {
 }
 
 impl<const C: usize> Table<C> {
-    pub(crate) fn new(map: &SkyMap) -> Self {
+    pub(crate) fn new(map: &SkyMap, palette: &Palette<C>) -> Self {
         let (columns, rows) = (map.width, map.height);
-        let pixels: Vec<Colour<C>> = map.pixels.iter().map(|&p| Colour::from_rgb(p.map(f64::from))).collect();
+        let emission = |pixel: &[f32; 3]| palette.emission(&Spectrum::Rgb(pixel.map(f64::from)));
+        let pixels: Vec<Colour<C>> = map.pixels.iter().map(emission).collect();
         let mut table = Self { columns, rows, pixels, to_local: map.to_world.transpose(), cumulative: Vec::new() };
         let mut sum = 0.0;
         for row in 0..table.bands() {

@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use glam::DVec3;
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Colour, Palette};
 use photonlab_scene::{Emitter, World};
 
 use crate::{Environment, Lamp, LampKind, pattern, window::covering_window};
@@ -23,19 +23,18 @@ pub struct Lamps<const C: usize> {
 
 impl<const C: usize> Lamps<C> {
     /// Collects the lamps of a scene.
-    pub fn new(world: &World) -> Self {
-        let mut lamps: Vec<Lamp<C>> = world.scene.emitters.iter().map(|e| surfaceless(world, e)).collect();
+    pub fn new(world: &World, palette: &Palette<C>) -> Self {
+        let mut lamps: Vec<Lamp<C>> =
+            world.scene.emitters.iter().filter(|e| !e.is_black()).map(|e| surfaceless(world, e, palette)).collect();
         for (index, shape) in world.scene.shapes.iter().enumerate() {
-            let Some(radiance) = shape.radiance.map(Colour::<C>::from_rgb) else {
-                continue;
-            };
+            let Some(emission) = shape.radiance.as_ref().filter(|emission| !emission.is_black()) else { continue };
+            let radiance = palette.emission(emission);
             for primitive in world.primitives_of(index) {
                 let area = world.primitives[primitive as usize].surface.area();
                 let kind = LampKind::Area { primitive, radiance, area };
                 lamps.push(Lamp { id: shape.id.clone(), kind, flux: radiance * (PI * area) });
             }
         }
-        lamps.retain(|lamp| !lamp.flux.is_zero());
         let mut of_primitive = vec![None; world.primitives.len()];
         for (index, lamp) in lamps.iter().enumerate() {
             if let LampKind::Area { primitive, .. } = lamp.kind {
@@ -46,7 +45,9 @@ impl<const C: usize> Lamps<C> {
         let total: f64 = lamps.iter().map(|lamp| lamp.flux.max()).sum();
         // Half by flux and half evenly: a weak lamp close to a receiver is not starved.
         let even = 1.0 / lamps.len() as f64;
-        let probability = lamps.iter().map(|lamp| 0.5 * lamp.flux.max() / total + 0.5 * even).collect();
+        // In a pass whose wavelengths no lamp emits, all are alike.
+        let share = |flux: f64| if total > 0.0 { flux / total } else { even };
+        let probability = lamps.iter().map(|lamp| 0.5 * share(lamp.flux.max()) + 0.5 * even).collect();
         Self { lamps, probability, of_primitive, environment }
     }
 
@@ -107,15 +108,15 @@ impl<const C: usize> Lamps<C> {
     }
 }
 
-fn surfaceless<const C: usize>(world: &World, emitter: &Emitter) -> Lamp<C> {
+fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palette<C>) -> Lamp<C> {
     match emitter {
         Emitter::Point { id, position, intensity, pattern } => {
-            let intensity = Colour::from_rgb(*intensity);
+            let intensity = palette.emission(intensity);
             let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
             Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
         }
         Emitter::Environment { id, light } => {
-            let environment = Arc::new(Environment::new(light));
+            let environment = Arc::new(Environment::new(light, palette));
             let (low, high) = world.bounds();
             let radius = 0.5 * (high - low).length() * (1.0 + 1e-9);
             let flux = environment.total * (PI * radius * radius);
@@ -126,7 +127,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter) -> Lamp<C> {
             }
         }
         Emitter::Directional { id, direction, irradiance } => {
-            let irradiance = Colour::from_rgb(*irradiance);
+            let irradiance = palette.emission(irradiance);
             let (corner, sides) = covering_window(world.bounds(), *direction);
             let area = sides[0].cross(sides[1]).length();
             let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };

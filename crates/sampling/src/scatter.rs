@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, World};
+use photonlab_scene::{Hit, Ray};
 
 use crate::{FacetMaterial, Facets, Matte, Rough, Specular, Stream, warp::Frame};
 
@@ -17,6 +17,8 @@ pub enum Interaction<const C: usize> {
     Matte(Matte<C>),
     /// Light goes on in a direction drawn from a line or a lobe; nothing is stored here.
     Followed(Followed<C>),
+    /// The same, once a wavelength has been chosen.
+    Dispersed(Dispersive<C>),
 }
 
 /// Interactions after which light goes on in a drawn direction.
@@ -41,67 +43,60 @@ pub struct Onward<const C: usize> {
     pub pdf_solid_angle: Option<f64>,
 }
 
-/// What happens at a hit to the light that meets the surface, and the share of light that does: what a mask leaves open
-/// goes on as if there were none. Photons are stored before that is drawn, for they have arrived.
-pub fn interaction<const C: usize>(world: &World, hit: &Hit) -> (Interaction<C>, f64) {
-    let (coating, opacity) = world.coating(hit.point.primitive, hit.front);
-    (coating.map_or(Interaction::Absorbed, |bsdf| of_bsdf(bsdf, hit.front)), opacity)
-}
-
 /// Draws whether light goes through what a mask leaves open.
 pub fn goes_through(opacity: f64, stream: &mut Stream) -> bool {
     opacity < 1.0 && stream.next() >= opacity
 }
 
-fn of_bsdf<const C: usize>(bsdf: &Bsdf, front: bool) -> Interaction<C> {
-    let colour = Colour::<C>::from_rgb;
-    let followed = |specular| Interaction::Followed(Followed::Specular(specular));
-    match bsdf {
-        Bsdf::TwoSided { .. } | Bsdf::Mask { .. } => Interaction::Absorbed,
-        Bsdf::Null => Interaction::Passed,
-        Bsdf::Diffuse { reflectance } => Interaction::Matte(Matte::bare(colour(*reflectance))),
-        Bsdf::Transmitter { reflectance, transmittance } => {
-            Interaction::Matte(Matte::transmitting(colour(*reflectance), colour(*transmittance)))
+/// An interface at which each wavelength goes on in a direction of its own: one of them must be chosen first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dispersive<const C: usize> {
+    /// Index on the far side over the index on the side of the hit, at each wavelength.
+    pub relative_index: Colour<C>,
+    /// Further factor of the reflected share.
+    pub reflectance: Colour<C>,
+    /// Further factor of the transmitted share.
+    pub transmittance: Colour<C>,
+    /// `None` if smooth.
+    pub facets: Option<Facets>,
+}
+
+impl<const C: usize> Dispersive<C> {
+    /// Chooses the wavelength that goes on, in proportion to what each carries: the interface as that wavelength meets it,
+    /// and the factor of mean one that leaves the other wavelengths nothing.
+    pub fn settle(&self, carried: Colour<C>, stream: &mut Stream) -> (Followed<C>, Colour<C>) {
+        let total: f64 = carried.0.into_iter().sum();
+        let mut rest = stream.next() * total;
+        let mut chosen = 0;
+        for (channel, light) in carried.0.into_iter().enumerate().filter(|(_, light)| *light > 0.0) {
+            chosen = channel;
+            rest -= light;
+            if rest < 0.0 {
+                break;
+            }
         }
-        Bsdf::Plastic { reflectance, specular_reflectance, relative_index, nonlinear } => Interaction::Matte(
-            Matte::coated(colour(*reflectance), colour(*specular_reflectance), *relative_index, *nonlinear),
-        ),
-        Bsdf::Mirror { reflectance } => followed(Specular::Mirror { reflectance: colour(*reflectance) }),
-        Bsdf::ThinDielectric { relative_index, specular: [reflected, transmitted] } => followed(Specular::Thin {
-            relative_index: *relative_index,
-            reflectance: colour(*reflected),
-            transmittance: colour(*transmitted),
-        }),
-        Bsdf::Conductor(metal) => Interaction::Followed(conductor(metal)),
-        Bsdf::Dielectric(glass) => Interaction::Followed(dielectric(glass, front)),
-    }
-}
-
-fn conductor<const C: usize>(metal: &Conductor) -> Followed<C> {
-    let [eta, k, reflectance] = [metal.eta, metal.k, metal.specular_reflectance].map(Colour::<C>::from_rgb);
-    match metal.roughness {
-        None => Followed::Specular(Specular::Conductor { eta, k, reflectance }),
-        Some(roughness) => Followed::Rough(Rough {
-            facets: Facets::new(roughness),
-            material: FacetMaterial::Conductor { eta, k, reflectance },
-        }),
-    }
-}
-
-fn dielectric<const C: usize>(glass: &Dielectric, front: bool) -> Followed<C> {
-    let ratio = glass.interior_index / glass.exterior_index;
-    let relative_index = if front { ratio } else { 1.0 / ratio };
-    let [reflectance, transmittance] = glass.specular.map(Colour::<C>::from_rgb);
-    match glass.roughness {
-        None => Followed::Specular(Specular::Dielectric { relative_index, reflectance, transmittance }),
-        Some(roughness) => Followed::Rough(Rough {
-            facets: Facets::new(roughness),
-            material: FacetMaterial::Dielectric { relative_index, reflectance, transmittance },
-        }),
+        let mut factor = Colour::ZERO;
+        factor[chosen] = if carried[chosen] > 0.0 { total / carried[chosen] } else { 1.0 };
+        let followed =
+            Followed::dielectric(self.relative_index[chosen], [self.reflectance, self.transmittance], self.facets);
+        (followed, factor)
     }
 }
 
 impl<const C: usize> Followed<C> {
+    /// The interface between two lossless media of a relative index, with further factors of the reflected and the
+    /// transmitted share.
+    pub fn dielectric(relative_index: f64, factors: [Colour<C>; 2], facets: Option<Facets>) -> Self {
+        let [reflectance, transmittance] = factors;
+        match facets {
+            None => Followed::Specular(Specular::Dielectric { relative_index, reflectance, transmittance }),
+            Some(facets) => Followed::Rough(Rough {
+                facets,
+                material: FacetMaterial::Dielectric { relative_index, reflectance, transmittance },
+            }),
+        }
+    }
+
     /// Draws how light goes on from a hit; `None` where it is lost.
     pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Option<Onward<C>> {
         match self {

@@ -12,6 +12,8 @@ pub enum Purpose {
     Offsets = 2,
     /// Rays from lamps towards a meter; the index counts cells and rays.
     Probes = 4,
+    /// Wavelengths of a pass.
+    Wavelengths = 5,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }

@@ -30,7 +30,7 @@ mod tests {
 
     use glam::DMat3;
     use photonlab_measure::chi_square_test;
-    use photonlab_photometry::Colour;
+    use photonlab_photometry::{Colour, Palette, Spectrum};
     use photonlab_scene::luminaire::{Cell, Symmetry};
     use photonlab_scene::{Emitter, Pattern, Scene, World};
 
@@ -111,10 +111,10 @@ mod tests {
     fn world(table: IntensityTable, intensity: f64, to_world: DMat3) -> (World, Lamps<1>) {
         let pattern = Pattern::Table { table: Arc::new(table), to_world };
         let emitter =
-            Emitter::Point { id: "lamp".into(), position: 2.0 * DVec3::Z, intensity: [intensity; 3], pattern };
+            Emitter::Point { id: "lamp".into(), position: 2.0 * DVec3::Z, intensity: Spectrum::Uniform(intensity), pattern };
         let (shapes, sensors, notes) = (vec![], vec![], vec![]);
         let world = World::new(Scene { shapes, emitters: vec![emitter], sensors, max_depth: None, notes });
-        let lamps = Lamps::new(&world);
+        let lamps = Lamps::new(&world, &Palette::Channels);
         (world, lamps)
     }
 

@@ -1,28 +1,30 @@
 //! What surfaces do to light.
 
-use crate::Rgb;
+use photonlab_photometry::Spectrum;
+
+use crate::Index;
 
 /// What a surface does to light.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Bsdf {
     /// Lambertian on the front side; the back absorbs.
     Diffuse {
-        /// Reflected share, each channel in [0, 1].
-        reflectance: Rgb,
+        /// Reflected share, in [0, 1].
+        reflectance: Spectrum,
     },
     /// Lambertian reflection and transmission, the same from either side (extension `diffusetransmitter`).
     Transmitter {
         /// Share reflected to the side from which light comes.
-        reflectance: Rgb,
+        reflectance: Spectrum,
         /// Share that leaves on the other side; with `reflectance` at most 1 in each channel.
-        transmittance: Rgb,
+        transmittance: Spectrum,
     },
     /// Lambertian body under a smooth coat, front side only (Mitsuba `plastic`).
     Plastic {
         /// Reflected share of what the body scatters once, each channel in [0, 1].
-        reflectance: Rgb,
+        reflectance: Spectrum,
         /// Further factor of the coat's own reflection, each channel in [0, 1].
-        specular_reflectance: Rgb,
+        specular_reflectance: Spectrum,
         /// Index of the coat over that before it.
         relative_index: f64,
         /// True if light that the coat sends back into the body is coloured by it again each time.
@@ -35,12 +37,12 @@ pub enum Bsdf {
         /// Index of the plate over that around it.
         relative_index: f64,
         /// Further factors of the reflected and the transmitted share.
-        specular: [Rgb; 2],
+        specular: [Spectrum; 2],
     },
     /// Mirror on the front side; the back absorbs.
     Mirror {
-        /// Reflected share, each channel in [0, 1].
-        reflectance: SpecularReflectance,
+        /// Reflected share, in [0, 1].
+        reflectance: Spectrum,
     },
     /// Metal on the front side, smooth or of microfacets; the back absorbs.
     Conductor(Conductor),
@@ -63,27 +65,27 @@ pub enum Bsdf {
 }
 
 /// An interface between two lossless media.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Dielectric {
     /// Index on the side opposite to the normal.
-    pub interior_index: f64,
+    pub interior_index: Index,
     /// Index on the side of the normal.
-    pub exterior_index: f64,
+    pub exterior_index: Index,
     /// Further factors of the reflected and the transmitted share, each channel in [0, 1].
-    pub specular: [Rgb; 2],
+    pub specular: [Spectrum; 2],
     /// `None` if smooth.
     pub roughness: Option<Roughness>,
 }
 
 /// The surface of a metal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Conductor {
-    /// Real part of the index over that before the metal, per channel.
-    pub eta: Rgb,
-    /// Imaginary part, per channel.
-    pub k: Rgb,
+    /// Real part of the index over that before the metal.
+    pub eta: Spectrum,
+    /// Imaginary part.
+    pub k: Spectrum,
     /// Further factor of the reflected share, each channel in [0, 1].
-    pub specular_reflectance: Rgb,
+    pub specular_reflectance: Spectrum,
     /// `None` if smooth.
     pub roughness: Option<Roughness>,
 }
@@ -106,24 +108,29 @@ pub enum Microfacets {
     Beckmann,
 }
 
-/// Reflected share of a mirror.
-pub type SpecularReflectance = Rgb;
-
 impl Bsdf {
-    /// True if every colour of it is grey.
-    pub(crate) fn is_grey(&self) -> bool {
-        let grey = |rgb: &Rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2];
+    /// Every spectrum of it.
+    pub fn spectra(&self) -> Vec<&Spectrum> {
         match self {
-            Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance } => grey(reflectance),
-            Bsdf::Transmitter { reflectance, transmittance } => grey(reflectance) && grey(transmittance),
-            Bsdf::Plastic { reflectance, specular_reflectance, .. } => grey(reflectance) && grey(specular_reflectance),
+            Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance } => vec![reflectance],
+            Bsdf::Transmitter { reflectance, transmittance } => vec![reflectance, transmittance],
+            Bsdf::Plastic { reflectance, specular_reflectance, .. } => vec![reflectance, specular_reflectance],
             Bsdf::Dielectric(Dielectric { specular, .. }) | Bsdf::ThinDielectric { specular, .. } => {
-                specular.iter().all(grey)
+                specular.iter().collect()
             }
-            Bsdf::Conductor(metal) => [metal.eta, metal.k, metal.specular_reflectance].iter().all(grey),
-            Bsdf::TwoSided { front, back } => front.is_grey() && back.is_grey(),
-            Bsdf::Mask { surface, .. } => surface.is_grey(),
-            Bsdf::Null => true,
+            Bsdf::Conductor(metal) => vec![&metal.eta, &metal.k, &metal.specular_reflectance],
+            Bsdf::TwoSided { front, back } => [front.spectra(), back.spectra()].concat(),
+            Bsdf::Mask { surface, .. } => surface.spectra(),
+            Bsdf::Null => Vec::new(),
+        }
+    }
+
+    /// True if it refracts wavelengths differently.
+    pub fn disperses(&self) -> bool {
+        match self {
+            Bsdf::Dielectric(glass) => glass.interior_index.disperses() || glass.exterior_index.disperses(),
+            Bsdf::Mask { surface, .. } => surface.disperses(),
+            _ => false,
         }
     }
 
@@ -131,10 +138,10 @@ impl Bsdf {
     pub fn is_specular(&self) -> bool {
         match self {
             Bsdf::Diffuse { .. } | Bsdf::Transmitter { .. } | Bsdf::Null => false,
-            Bsdf::Plastic { specular_reflectance, .. } => *specular_reflectance != [0.0; 3],
+            Bsdf::Plastic { specular_reflectance, .. } => !specular_reflectance.is_black(),
             Bsdf::Dielectric(_) | Bsdf::ThinDielectric { .. } => true,
-            Bsdf::Mirror { reflectance } => *reflectance != [0.0; 3],
-            Bsdf::Conductor(metal) => metal.specular_reflectance != [0.0; 3],
+            Bsdf::Mirror { reflectance } => !reflectance.is_black(),
+            Bsdf::Conductor(metal) => !metal.specular_reflectance.is_black(),
             Bsdf::TwoSided { front, back } => front.is_specular() || back.is_specular(),
             Bsdf::Mask { surface, .. } => surface.is_specular(),
         }
@@ -143,8 +150,8 @@ impl Bsdf {
     /// True if light can leave it in all directions.
     pub fn is_diffuse(&self) -> bool {
         match self {
-            Bsdf::Diffuse { reflectance } | Bsdf::Plastic { reflectance, .. } => *reflectance != [0.0; 3],
-            Bsdf::Transmitter { reflectance, transmittance } => *reflectance != [0.0; 3] || *transmittance != [0.0; 3],
+            Bsdf::Diffuse { reflectance } | Bsdf::Plastic { reflectance, .. } => !reflectance.is_black(),
+            Bsdf::Transmitter { reflectance, transmittance } => !reflectance.is_black() || !transmittance.is_black(),
             Bsdf::Dielectric(_)
             | Bsdf::ThinDielectric { .. }
             | Bsdf::Mirror { .. }

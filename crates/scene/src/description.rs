@@ -1,12 +1,9 @@
 //! What a scene file says, in world units, checked but not yet prepared for ray casting.
 
 use glam::{DAffine3, DMat3, DVec3};
-use photonlab_photometry::{Channels, UnitSystem};
+use photonlab_photometry::{Channels, Spectrum, UnitSystem};
 
 use crate::{Bsdf, Emitter, EnvironmentLight, Sensor};
-
-/// A colour as the file gives it; grey if its three numbers are equal. Unit: that of the parameter.
-pub type Rgb = [f64; 3];
 
 /// A whole scene: the promise of the door "file -> scene" is that nothing of the file was ignored in silence.
 #[derive(Clone, Debug)]
@@ -35,7 +32,7 @@ pub struct Shape {
     /// What happens to light there.
     pub bsdf: Bsdf,
     /// Emitted radiance of the front side, W/(m^2 sr) or cd/m^2, if it is an area lamp.
-    pub radiance: Option<Rgb>,
+    pub radiance: Option<Spectrum>,
 }
 
 /// The kinds of surface.
@@ -64,20 +61,34 @@ pub enum Geometry {
 }
 
 impl Scene {
-    /// One channel if every colour in the scene is grey, else three.
+    /// One channel if every colour in the scene is grey, else three; wavelengths if anything is given by wavelength or
+    /// refracts by it.
     pub fn channels(&self) -> Channels {
-        let grey = |rgb: &Rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2];
-        let emitters_grey = self.emitters.iter().all(|emitter| match emitter {
-            Emitter::Point { intensity, .. } => grey(intensity),
-            Emitter::Directional { irradiance, .. } => grey(irradiance),
+        let spectra = || self.emissions().into_iter().chain(self.shapes.iter().flat_map(|shape| shape.bsdf.spectra()));
+        let map_is_grey = self.emitters.iter().all(|emitter| match emitter {
+            Emitter::Environment { light: EnvironmentLight::Map(map), .. } => map.is_grey(),
+            _ => true,
+        });
+        if spectra().any(Spectrum::is_curve) || self.shapes.iter().any(|shape| shape.bsdf.disperses()) {
+            Channels::Spectral
+        } else if map_is_grey && spectra().all(Spectrum::is_grey) {
+            Channels::Grey
+        } else {
+            Channels::Rgb
+        }
+    }
+
+    /// What each lamp emits, but for environment maps.
+    pub fn emissions(&self) -> Vec<&Spectrum> {
+        let surfaceless = self.emitters.iter().filter_map(|emitter| match emitter {
+            Emitter::Point { intensity, .. } => Some(intensity),
+            Emitter::Directional { irradiance, .. } => Some(irradiance),
             Emitter::Environment { light, .. } => match light {
-                EnvironmentLight::Constant { radiance } | EnvironmentLight::Sky { radiance, .. } => grey(radiance),
-                EnvironmentLight::Map(map) => map.pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2]),
+                EnvironmentLight::Constant { radiance } | EnvironmentLight::Sky { radiance, .. } => Some(radiance),
+                EnvironmentLight::Map(_) => None,
             },
         });
-        let shapes_grey =
-            self.shapes.iter().all(|shape| shape.bsdf.is_grey() && shape.radiance.as_ref().is_none_or(grey));
-        if emitters_grey && shapes_grey { Channels::Grey } else { Channels::Rgb }
+        surfaceless.chain(self.shapes.iter().filter_map(|shape| shape.radiance.as_ref())).collect()
     }
 
     /// True if the scene holds anything that emits.

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
 
+use photonlab_photometry::Spectrum;
+
+use crate::Sky;
 use crate::luminaire::IntensityTable;
-use crate::{Rgb, Sky};
 
 /// Lamps without a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +19,7 @@ pub enum Emitter {
         /// Position in metres.
         position: DVec3,
         /// Radiant or luminous intensity where the pattern is 1, W/sr or cd.
-        intensity: Rgb,
+        intensity: Spectrum,
         /// How the intensity depends on direction.
         pattern: Pattern,
     },
@@ -28,7 +30,7 @@ pub enum Emitter {
         /// Unit vector along which the light travels.
         direction: DVec3,
         /// Irradiance on a plane across the direction, W/m^2 or lx.
-        irradiance: Rgb,
+        irradiance: Spectrum,
     },
     /// Light from all directions, from infinity; at most one in a scene.
     Environment {
@@ -37,6 +39,20 @@ pub enum Emitter {
         /// Its radiance by direction.
         light: EnvironmentLight,
     },
+}
+
+impl Emitter {
+    /// True if it emits nothing.
+    pub fn is_black(&self) -> bool {
+        match self {
+            Emitter::Point { intensity, .. } => intensity.is_black(),
+            Emitter::Directional { irradiance, .. } => irradiance.is_black(),
+            Emitter::Environment { light, .. } => match light {
+                EnvironmentLight::Constant { radiance } | EnvironmentLight::Sky { radiance, .. } => radiance.is_black(),
+                EnvironmentLight::Map(map) => map.pixels.iter().all(|pixel| *pixel == [0.0; 3]),
+            },
+        }
+    }
 }
 
 /// How the intensity of a point source depends on direction, 1 in the brightest.
@@ -75,12 +91,12 @@ pub enum EnvironmentLight {
     /// The same from everywhere (Mitsuba `constant`).
     Constant {
         /// Radiance.
-        radiance: Rgb,
+        radiance: Spectrum,
     },
     /// A sky by law (extension `sky`).
     Sky {
         /// Radiance at the zenith.
-        radiance: Rgb,
+        radiance: Spectrum,
         /// Relative luminance.
         sky: Sky,
     },
@@ -99,6 +115,13 @@ pub struct SkyMap {
     pub pixels: Vec<[f32; 3]>,
     /// A rotation from the picture's own axes, in which the left edge looks along -z and columns turn towards +x.
     pub to_world: DMat3,
+}
+
+impl SkyMap {
+    /// True if every pixel is grey.
+    pub fn is_grey(&self) -> bool {
+        self.pixels.iter().all(|p| p[0] == p[1] && p[1] == p[2])
+    }
 }
 
 impl std::fmt::Debug for SkyMap {

@@ -49,6 +49,7 @@ impl Needs {
                 needs.leave_out("three channels", "every colour of the scene is grey, so one channel carries all")
             }
             Channels::Rgb => needs.model("three channels", "a reflectance or a lamp is coloured"),
+            Channels::Spectral => needs.model("wavelengths", &spectral_reason(scene)),
         }
         if needs.direct {
             needs.model("direct light", "the scene has a lamp");
@@ -76,6 +77,18 @@ impl Needs {
 
     fn leave_out(&mut self, need: &str, reason: &str) {
         self.left_out.push(Need { need: need.into(), reason: reason.into() });
+    }
+}
+
+/// Why light is followed by wavelength.
+fn spectral_reason(scene: &Scene) -> String {
+    let by_wavelength = |shape: &&crate::Shape| shape.bsdf.spectra().iter().any(|spectrum| spectrum.is_curve());
+    if let Some(shape) = scene.shapes.iter().find(|shape| shape.bsdf.disperses()) {
+        return format!("`{}` refracts wavelengths differently", shape.id);
+    }
+    match scene.shapes.iter().find(by_wavelength) {
+        Some(shape) => format!("the coating of `{}` is given by wavelength", shape.id),
+        None => "a lamp is given by wavelength".into(),
     }
 }
 

@@ -99,21 +99,6 @@ impl World {
         self.metered[self.primitives[primitive as usize].shape as usize]
     }
 
-    /// What the surface does to light that arrives on one of its sides, and the share of light that meets it at all;
-    /// `None` where it absorbs everything.
-    pub fn coating(&self, primitive: u32, front: bool) -> (Option<&Bsdf>, f64) {
-        let (bsdf, opacity) = match &self.shape_of(primitive).bsdf {
-            Bsdf::Mask { opacity, surface } => (&**surface, *opacity),
-            bsdf => (bsdf, 1.0),
-        };
-        let side = match (bsdf, front) {
-            (Bsdf::TwoSided { front, .. }, true) => Some(&**front),
-            (Bsdf::TwoSided { back, .. }, false) => Some(&**back),
-            (bsdf, front) => (front || bsdf.joins_its_sides()).then_some(bsdf),
-        };
-        (side, opacity)
-    }
-
     /// The nearest surface along a ray that starts on `from` (or on no surface), up to a distance.
     pub fn cast(&self, ray: &Ray, from: Option<u32>, limit: f64) -> Option<Hit> {
         let t_min = NEAREST * ray.origin.abs().max_element();

@@ -1,6 +1,7 @@
 //! Ray casting against brute force, and self-intersection at every scale.
 
 use glam::{DAffine3, DMat3, DVec3};
+use photonlab_photometry::Spectrum;
 use photonlab_scene::{Bsdf, Geometry, Ray, Scene, Shape, World};
 
 /// SplitMix64 (Steele et al. 2014): good enough to place shapes and rays.
@@ -30,7 +31,13 @@ impl Numbers {
 }
 
 fn shape(geometry: Geometry, flip_normals: bool) -> Shape {
-    Shape { id: "s".into(), geometry, flip_normals, bsdf: Bsdf::Diffuse { reflectance: [0.5; 3] }, radiance: None }
+    Shape {
+        id: "s".into(),
+        geometry,
+        flip_normals,
+        bsdf: Bsdf::Diffuse { reflectance: Spectrum::Uniform(0.5) },
+        radiance: None,
+    }
 }
 
 fn world(shapes: Vec<Shape>) -> World {

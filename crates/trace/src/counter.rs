@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::{Hit, World};
 
 use crate::{Classes, Job, Ledger, TraceError, Traced, in_chunks, path};
@@ -30,7 +30,7 @@ pub struct Counted<const C: usize> {
 /// beyond what a task counts before its sum is taken.
 pub fn count<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     plan: &EmissionPlan<C>,
     job: &Job,
     cells: usize,
@@ -41,7 +41,7 @@ pub fn count<const C: usize>(
         let mut part = Traced::empty(world);
         let mut tally = Tally { counter, arrivals: Vec::new() };
         for number in numbers {
-            path::follow(world, lamps, plan, &job, number, &mut part, &mut tally)?;
+            path::follow(world, optics, plan, &job, number, &mut part, &mut tally)?;
         }
         Ok((part.ledger, tally.arrivals))
     });

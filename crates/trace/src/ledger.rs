@@ -100,24 +100,22 @@ impl<const C: usize> Ledger<C> {
 
     /// All flux times a factor: the mean of several runs from their sum.
     pub fn scaled(&self, factor: f64) -> Self {
-        let mut scaled = self.clone();
-        scaled.emitted = scaled.emitted * factor;
-        for book in &mut scaled.classes {
-            for flux in [
-                &mut book.absorbed,
-                &mut book.escaped,
-                &mut book.cut_off,
-                &mut book.roulette_gain,
-                &mut book.roulette_loss,
-            ] {
-                *flux = *flux * factor;
-            }
+        self.map(|flux| flux * factor)
+    }
+
+    /// All flux turned into something else.
+    pub fn map(&self, turn: impl Fn(Colour<C>) -> Colour<C>) -> Self {
+        let mut turned = self.clone();
+        let books = turned.classes.iter_mut().flat_map(|book| {
+            [&mut book.absorbed, &mut book.escaped, &mut book.cut_off, &mut book.roulette_gain, &mut book.roulette_loss]
+        });
+        let surfaces = turned
+            .surfaces
+            .iter_mut()
+            .flat_map(|surface| [&mut surface.incident, &mut surface.outgoing, &mut surface.absorbed]);
+        for flux in books.chain(surfaces).chain([&mut turned.emitted]) {
+            *flux = turn(*flux);
         }
-        for surface in &mut scaled.surfaces {
-            surface.incident = surface.incident * factor;
-            surface.outgoing = surface.outgoing * factor;
-            surface.absorbed = surface.absorbed * factor;
-        }
-        scaled
+        turned
     }
 }

@@ -13,7 +13,7 @@ pub use ledger::{Book, Ledger, SurfaceBook};
 pub use path::{Classes, Limits, TraceError};
 
 use photonlab_photometry::Photon;
-use photonlab_sampling::{EmissionPlan, Lamps};
+use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::World;
 use rayon::prelude::*;
 
@@ -55,14 +55,14 @@ pub struct Job {
 /// Follows all photons of a plan.
 pub fn trace<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     plan: &EmissionPlan<C>,
     job: &Job,
 ) -> Result<Traced<C>, TraceError> {
     let parts = in_chunks(plan, |numbers| {
         let mut part = Traced::empty(world);
         for number in numbers {
-            path::follow(world, lamps, plan, job, number, &mut part, &mut NoCounter)?;
+            path::follow(world, optics, plan, job, number, &mut part, &mut NoCounter)?;
         }
         Ok(part)
     });

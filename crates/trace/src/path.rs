@@ -1,9 +1,7 @@
 //! One photon's path.
 
 use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
-use photonlab_sampling::{
-    EmissionPlan, Followed, Interaction, Lamps, Matte, Purpose, Stream, goes_through, interaction,
-};
+use photonlab_sampling::{EmissionPlan, Followed, Interaction, Matte, Optics, Purpose, Stream, goes_through};
 use photonlab_scene::{Hit, Ray, World};
 
 use crate::{Job, SurfaceBook, Traced, counter::Witness, ledger::Book};
@@ -83,6 +81,7 @@ struct Walk<'w, const C: usize> {
     /// Diffuse interactions since the path last lost light.
     lossless_run: u32,
     world: &'w World,
+    optics: &'w Optics<C>,
 }
 
 enum Fate {
@@ -92,7 +91,7 @@ enum Fate {
 
 pub(crate) fn follow<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     plan: &EmissionPlan<C>,
     job: &Job,
     index: u64,
@@ -101,7 +100,7 @@ pub(crate) fn follow<const C: usize>(
 ) -> Result<(), TraceError> {
     let mut stream = Stream::new(job.seed, Purpose::Photons, job.pass, index);
     let (lamp, flux) = plan.photon(index);
-    let emission = lamps.lamps[lamp].emit(world, &mut stream);
+    let emission = optics.lamps.lamps[lamp].emit(world, &mut stream);
     let flux = flux * emission.weight;
     out.ledger.emitted += flux;
     let mut walk = Walk {
@@ -113,6 +112,7 @@ pub(crate) fn follow<const C: usize>(
         specular_run: 0,
         lossless_run: 0,
         world,
+        optics,
     };
     while let Fate::GoesOn = walk.step(job, &mut stream, out, witness) {
         if walk.lossless_run >= LOSSLESS {
@@ -137,14 +137,11 @@ impl<const C: usize> Walk<'_, C> {
         };
         self.from = Some(hit.point.primitive);
         witness.arrived(&hit, self.flux);
-        let (mut interaction, opacity) = interaction(self.world, &hit);
+        let (interaction, opacity) = self.optics.interaction(self.world, &hit);
         if matches!(interaction, Interaction::Matte(_)) || self.world.is_metered(hit.point.primitive) {
             self.store(&hit, self.segments + 1, job, out);
         }
-        if goes_through(opacity, stream) {
-            interaction = Interaction::Passed;
-        }
-        if let Interaction::Passed = interaction {
+        if matches!(interaction, Interaction::Passed) || goes_through(opacity, stream) {
             self.ray = Ray::new(hit.point.position, self.ray.direction);
             return Fate::GoesOn;
         }
@@ -155,8 +152,13 @@ impl<const C: usize> Walk<'_, C> {
                 self.absorb(&hit, self.flux, out);
                 Fate::Ended
             }
-            Interaction::Matte(matte) => self.reflect(&hit, &matte, job, stream, out),
-            Interaction::Followed(followed) => self.pass_on(&hit, &followed, job, stream, out),
+            Interaction::Matte(matte) => self.reflect(&hit, matte, job, stream, out),
+            Interaction::Followed(followed) => self.pass_on(&hit, followed, job, stream, out),
+            Interaction::Dispersed(dispersive) => {
+                let (followed, factor) = dispersive.settle(self.flux, stream);
+                self.reweight(factor, out);
+                self.pass_on(&hit, &followed, job, stream, out)
+            }
         }
     }
 

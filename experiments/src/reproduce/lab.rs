@@ -1,9 +1,10 @@
 //! Scenes read by experiments as the command would read them.
 
+use photonlab_photometry::Response;
 use photonlab_readout::{
     Cell, ErrorOver, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Target, Wanted,
 };
-use photonlab_sampling::Lamps;
+use photonlab_sampling::PassOptics;
 use photonlab_scene::{
     Needs, World,
     read::{read_scene, read_scene_str},
@@ -55,11 +56,11 @@ impl Lab {
         confidence: f64,
         source: &Source<'_, C>,
     ) -> Result<Outcome<C>, ReadError> {
-        let lamps = Lamps::new(&self.world);
+        let optics = PassOptics::new(&self.world, Response::Radiometric)?;
         let is_image = cells.first().is_some_and(|cell| matches!(cell.target, Target::Pixel { .. }));
         let error_over = if is_image { ErrorOver::Image } else { ErrorOver::Worst };
         let session =
-            Session { world: &self.world, lamps: &lamps, needs: &self.needs, settings, confidence, error_over };
+            Session { world: &self.world, optics: &optics, needs: &self.needs, settings, confidence, error_over };
         let schedule = Schedule::new(wanted, cells.len(), &session.demands());
         session.run(cells, &schedule, source, &Silent)
     }

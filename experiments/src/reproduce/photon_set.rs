@@ -1,7 +1,8 @@
 //! Photon sets on which trees are tried, in random order: the first are for the tree, the last for its queries.
 
+use photonlab_photometry::Palette;
 use photonlab_readout::trace_pass;
-use photonlab_sampling::{Lamps, Stream};
+use photonlab_sampling::{Optics, Stream};
 use photonlab_trace::Classes;
 
 use super::{field::stream, lab::Lab, strategy::Strategy};
@@ -62,9 +63,9 @@ fn traced(
     random: &mut Stream,
 ) -> anyhow::Result<Vec<[f32; 3]>> {
     let lab = Lab::new(name, xml, &[])?;
-    let lamps = Lamps::<3>::new(&lab.world);
+    let optics = Optics::<3>::new(&lab.world, Palette::Channels);
     let settings = Strategy::NEAREST_DIRECT_VIEW.settings(seed);
-    let pass = |paths| trace_pass(&lab.world, &lamps, &settings, Classes::ALL, replicate as u32, paths);
+    let pass = |paths| trace_pass(&lab.world, &optics, &settings, Classes::ALL, replicate as u32, paths);
     let mut paths = (count as u64).max(1024);
     loop {
         let mut positions = pass(paths)?.positions;

@@ -6,9 +6,10 @@ use glam::DVec3;
 use photonlab_gather::{AreaModel, Bandwidth, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::Replicates;
+use photonlab_photometry::Palette;
 use photonlab_readout::{Direct, Method, PassPhotons, Settings, trace_pass};
 use photonlab_reference::rendering_equation::{DiffuseTransmitter, EquationReading};
-use photonlab_sampling::{Lamps, Stream, warp};
+use photonlab_sampling::{Optics, Stream, warp};
 use photonlab_trace::{Classes, Limits};
 use serde::Deserialize;
 
@@ -55,7 +56,7 @@ pub(super) struct SheetReadings {
 /// Traces photons onto the sheet and reads it.
 pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<SheetReadings> {
     let lab = Lab::new("sheet.xml", &xml(p), &[])?;
-    let lamps = Lamps::<1>::new(&lab.world);
+    let optics = Optics::<1>::new(&lab.world, Palette::Channels);
     let settings = Settings {
         method: Method::Radius { radius: Some(RADIUS) },
         direct: Direct::Photons,
@@ -66,7 +67,7 @@ pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<Shee
     };
     let mut readings = SheetReadings::default();
     for pass in 0..p.replicates {
-        let photons = trace_pass(&lab.world, &lamps, &settings, Classes::ALL, pass, p.photons)?;
+        let photons = trace_pass(&lab.world, &optics, &settings, Classes::ALL, pass, p.photons)?;
         readings.counted.push(count_outgoing(p, &photons, &mut stream(p.seed, u64::from(pass))));
         let map = PhotonMap::build(photons.positions, photons.photons, SplitRule::Median)?;
         let irradiance = |up: f32, tests| {

@@ -1,5 +1,7 @@
 //! What surfaces do to light: `bsdf` and `ref`.
 
+use photonlab_photometry::Spectrum;
+
 use crate::Bsdf;
 
 use super::dielectric::{dielectric, plastic, thin};
@@ -60,16 +62,17 @@ fn reference(element: &Element, builder: &Builder) -> Result<Bsdf, SceneError> {
 }
 
 fn diffuse(mut object: Object) -> Result<Bsdf, SceneError> {
-    let reflectance = object.colour("reflectance", Range::SHARE)?.unwrap_or([0.5; 3]);
+    let reflectance = object.colour("reflectance", Range::SHARE)?.unwrap_or(Spectrum::Uniform(0.5));
     object.close(&[])?;
     Ok(Bsdf::Diffuse { reflectance })
 }
 
 /// The extension `diffusetransmitter`: Mitsuba 3 has no such plugin.
 fn transmitter(mut object: Object) -> Result<Bsdf, SceneError> {
-    let reflectance = object.colour("reflectance", Range::SHARE)?.unwrap_or([0.5; 3]);
-    let transmittance = object.colour("transmittance", Range::SHARE)?.unwrap_or([0.5; 3]);
-    if let Some(sum) = (0..3).map(|c| reflectance[c] + transmittance[c]).find(|&sum| sum > 1.0 + 1e-12) {
+    let reflectance = object.colour("reflectance", Range::SHARE)?.unwrap_or(Spectrum::Uniform(0.5));
+    let transmittance = object.colour("transmittance", Range::SHARE)?.unwrap_or(Spectrum::Uniform(0.5));
+    let sum = reflectance.max_of_sum(&transmittance);
+    if sum > 1.0 + 1e-12 {
         let what = format!("reflectance and transmittance add up to {sum}");
         return Err(object.element.error(what, "lower one of them: a surface hands on at most what it receives"));
     }

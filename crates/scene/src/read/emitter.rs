@@ -1,8 +1,9 @@
 //! Lamps.
 
 use glam::{DAffine3, DVec3};
+use photonlab_photometry::Spectrum;
 
-use crate::{Emitter, Pattern, Rgb};
+use crate::{Emitter, Pattern};
 
 use super::element::Element;
 use super::environment::environment;
@@ -39,7 +40,7 @@ pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Re
 }
 
 /// The radiance of a lamp that stands inside a shape.
-pub(super) fn area(element: &Element, builder: &mut Builder) -> Result<Rgb, SceneError> {
+pub(super) fn area(element: &Element, builder: &mut Builder) -> Result<Spectrum, SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
     if object.plugin != "area" {
@@ -106,11 +107,11 @@ fn directional(mut object: Object, id: String, builder: &mut Builder) -> Result<
 }
 
 /// The emitted quantity, 1 if the file does not say, as in Mitsuba.
-pub(super) fn emission(object: &mut Object, name: &'static str, builder: &mut Builder) -> Result<Rgb, SceneError> {
+pub(super) fn emission(object: &mut Object, name: &'static str, builder: &mut Builder) -> Result<Spectrum, SceneError> {
     if object.float("sampling_weight", Range::ANY)?.is_some() {
         builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
-    Ok(object.colour(name, Range::EMISSION)?.unwrap_or([1.0; 3]))
+    Ok(object.colour(name, Range::EMISSION)?.unwrap_or(Spectrum::Uniform(1.0)))
 }
 
 /// Checks that a vector and `to_world` do not both say the same.

@@ -1,6 +1,7 @@
 //! Light from infinity: `constant`, `envmap`, `sky`.
 
 use glam::{DAffine3, DMat3, DVec3};
+use photonlab_photometry::Spectrum;
 
 use crate::{EnvironmentLight, Sky, SkyLaw, SkyMap};
 
@@ -62,8 +63,8 @@ fn sky(mut object: Object, builder: &mut Builder) -> Result<EnvironmentLight, Sc
         (Some(_), Some(_)) => {
             return Err(object.element.error("both radiance and irradiance are given", "keep one of them"));
         }
-        (None, Some(irradiance)) => irradiance.map(|e| e / sky.horizontal_irradiance()),
-        (given, None) => given.unwrap_or([1.0; 3]),
+        (None, Some(irradiance)) => irradiance.scaled(1.0 / sky.horizontal_irradiance()),
+        (given, None) => given.unwrap_or(Spectrum::Uniform(1.0)),
     };
     object.close(&[])?;
     Ok(EnvironmentLight::Sky { radiance, sky })

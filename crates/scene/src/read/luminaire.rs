@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
+use photonlab_photometry::Spectrum;
 
 use crate::luminaire::{IntensityTable, read_luminaire};
 use crate::{Emitter, Pattern};
@@ -28,7 +29,7 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     check_one_of(&object, given, placed, "position")?;
     check_one_of(&object, along, placed, "direction")?;
     let flux = object.float("flux", Range::EMISSION)?;
-    let tint = object.colour("tint", Range::EMISSION)?.unwrap_or([1.0; 3]);
+    let tint = object.colour("tint", Range::EMISSION)?.unwrap_or(Spectrum::Uniform(1.0));
     if object.float("sampling_weight", Range::ANY)?.is_some() {
         builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
@@ -45,11 +46,9 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     };
     let table = table(element, file.required("value"), builder)?;
     let scale = flux.map_or(1.0, |flux| flux / table.flux()) * table.brightest();
-    let intensity = tint.map(|tint| tint * scale);
-    for channel in intensity {
-        let brightest = |fault: Fault| element.error(format!("its brightest intensity {}", fault.what), fault.mend);
-        Range::EMISSION.check(channel).map_err(brightest)?;
-    }
+    let intensity = tint.scaled(scale);
+    let brightest = |fault: Fault| element.error(format!("its brightest intensity {}", fault.what), fault.mend);
+    Range::EMISSION.check(intensity.max()).map_err(brightest)?;
     let position = given.or(placed.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
     Ok(Emitter::Point { id, position, intensity, pattern: Pattern::Table { table, to_world } })
 }

@@ -1,6 +1,8 @@
 //! Metals: `conductor` and `roughconductor`.
 
-use crate::{Bsdf, Conductor, Rgb};
+use photonlab_photometry::Spectrum;
+
+use crate::{Bsdf, Conductor};
 
 use super::dielectric::roughness;
 use super::element::Element;
@@ -12,7 +14,7 @@ use super::object::Object;
 /// Complex indices in the three channels of sRGB, from the tables of optical constants that Mitsuba carries, turned into
 /// colours as its RGB variants do.
 #[rustfmt::skip]
-const METALS: [(&str, Rgb, Rgb); 23] = [
+const METALS: [(&str, [f64; 3], [f64; 3]); 23] = [
     ("Al", [1.6575, 0.8804, 0.52124], [9.2238, 6.2695, 4.837]),
     ("Au", [0.14304, 0.37531, 1.442], [3.983, 2.3856, 1.6034]),
     ("Be", [4.185, 3.185, 2.7841], [3.8355, 3.0101, 2.869]),
@@ -44,7 +46,7 @@ pub(super) fn conductor(mut object: Object, rough: bool) -> Result<Bsdf, SceneEr
     let material = object.take("material", &["string"])?;
     let eta = object.colour("eta", Range::METAL)?;
     let k = object.colour("k", Range::METAL)?;
-    let specular_reflectance = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or([1.0; 3]);
+    let specular_reflectance = object.colour("specular_reflectance", Range::SHARE)?.unwrap_or(Spectrum::Uniform(1.0));
     object.close(&[])?;
     let named = material.map(metal).transpose()?.flatten();
     if let Some(material) = material.filter(|_| named.is_some() && (eta.is_some() || k.is_some())) {
@@ -55,18 +57,19 @@ pub(super) fn conductor(mut object: Object, rough: bool) -> Result<Bsdf, SceneEr
         (None, None, None) if roughness.is_none() => {
             return Ok(Bsdf::Mirror { reflectance: specular_reflectance });
         }
-        (None, eta, k) => (eta.unwrap_or([0.0; 3]), k.unwrap_or([1.0; 3])),
+        (None, eta, k) => (eta.unwrap_or(Spectrum::BLACK), k.unwrap_or(Spectrum::Uniform(1.0))),
     };
     Ok(Bsdf::Conductor(Conductor { eta, k, specular_reflectance, roughness }))
 }
 
 /// The indices of a named metal; nothing for "none".
-fn metal(element: &Element) -> Result<Option<(Rgb, Rgb)>, SceneError> {
+fn metal(element: &Element) -> Result<Option<(Spectrum, Spectrum)>, SceneError> {
     let wanted = element.required("value");
     if wanted.eq_ignore_ascii_case("none") {
         return Ok(None);
     }
-    let found = METALS.iter().find(|(name, ..)| name.eq_ignore_ascii_case(wanted)).map(|(_, eta, k)| (*eta, *k));
+    let found = METALS.iter().find(|(name, ..)| name.eq_ignore_ascii_case(wanted));
+    let found = found.map(|(_, eta, k)| (Spectrum::Rgb(*eta), Spectrum::Rgb(*k)));
     found.map(Some).ok_or_else(|| {
         let known = nearest_first(wanted, METALS.iter().map(|(name, ..)| *name));
         let what = format!("{} is no metal that is known", quote(wanted));

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::{DAffine3, DVec3};
 
-use crate::Rgb;
+use photonlab_photometry::Spectrum;
 
 use super::colour::colour;
 use super::element::Element;
@@ -115,8 +115,8 @@ impl<'e> Object<'e> {
     }
 
     /// A colour, each channel in `range`.
-    pub(super) fn colour(&mut self, name: &'static str, range: Range) -> Result<Option<Rgb>, SceneError> {
-        self.value(name, &["rgb", "spectrum", "float"], |child| colour(child, range).map_err(|f| child.value_fault(f)))
+    pub(super) fn colour(&mut self, name: &'static str, range: Range) -> Result<Option<Spectrum>, SceneError> {
+        self.value(name, &["rgb", "spectrum", "float"], |child| colour(child, range))
     }
 
     /// The transform `to_world`.

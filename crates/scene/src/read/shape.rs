@@ -2,7 +2,9 @@
 
 use glam::DAffine3;
 
-use crate::{Bsdf, Geometry, Rgb, Shape};
+use photonlab_photometry::Spectrum;
+
+use crate::{Bsdf, Geometry, Shape};
 
 use super::bsdf::{TAGS, bsdf};
 use super::element::Element;
@@ -32,7 +34,7 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     let radiance = lamp.map(|lamp| area(lamp, builder)).transpose()?;
     let bsdf = match coating {
         Some(coating) => bsdf(coating, builder)?,
-        None => uncoated(radiance),
+        None => uncoated(radiance.is_some()),
     };
     let index = builder.scene.shapes.len();
     let id = builder.id(element, "shape", index)?;
@@ -53,6 +55,6 @@ fn geometry(object: &mut Object) -> Result<(Geometry, bool), SceneError> {
 }
 
 /// Mitsuba's coating of a shape without one.
-fn uncoated(radiance: Option<Rgb>) -> Bsdf {
-    Bsdf::Diffuse { reflectance: if radiance.is_some() { [0.0; 3] } else { [0.5; 3] } }
+fn uncoated(shines: bool) -> Bsdf {
+    Bsdf::Diffuse { reflectance: Spectrum::Uniform(if shines { 0.0 } else { 0.5 }) }
 }

@@ -6,10 +6,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec3;
-use photonlab_photometry::Channels;
+use photonlab_photometry::{Channels, Spectrum};
 use photonlab_scene::luminaire::IntensityTable;
 use photonlab_scene::read::{SceneError, read_scene};
-use photonlab_scene::{Emitter, Rgb, Scene};
+use photonlab_scene::{Emitter, Scene};
 use tempfile::TempDir;
 
 use super::samples::{LM63, ies, ldt};
@@ -33,13 +33,13 @@ fn read(folder: &Path) -> Result<Scene, SceneError> {
     read_scene(&folder.join("main.xml"), &[])
 }
 
-type Placed<'s> = (DVec3, Rgb, &'s Arc<IntensityTable>, glam::DMat3);
+type Placed<'s> = (DVec3, &'s Spectrum, &'s Arc<IntensityTable>, glam::DMat3);
 
 fn placed(emitter: &Emitter) -> Placed<'_> {
     match emitter {
         Emitter::Point {
             position, intensity, pattern: photonlab_scene::Pattern::Table { table, to_world }, ..
-        } => (*position, *intensity, table, *to_world),
+        } => (*position, intensity, table, *to_world),
         other => panic!("{other:?}"),
     }
 }
@@ -59,15 +59,15 @@ fn lamps_have_places_turns_fluxes_and_tints() {
     let scene = read(folder.path()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(scene.channels(), Channels::Rgb);
     let lamps: Vec<Placed> = scene.emitters.iter().map(placed).collect();
-    assert_eq!((lamps[0].0, lamps[0].1), (DVec3::ZERO, [100.0; 3]));
+    assert_eq!((lamps[0].0, lamps[0].1), (DVec3::ZERO, &Spectrum::Uniform(100.0)));
     assert_eq!(**lamps[0].2, ies(LM63).table);
     assert!(Arc::ptr_eq(lamps[0].2, lamps[1].2), "one file is read once");
     assert_eq!(lamps[1].0, DVec3::new(1.0, 2.0, 3.0));
-    let flux = lamps[1].1[0] * lamps[1].2.flux() / lamps[1].2.brightest();
+    let flux = lamps[1].1.max() * lamps[1].2.flux() / lamps[1].2.brightest();
     assert!((flux / 500.0 - 1.0).abs() < 1e-14, "{flux}");
-    assert_eq!((lamps[2].0, lamps[2].1), (DVec3::new(0.0, 0.0, 4.0), [100.0, 50.0, 0.0]));
+    assert_eq!((lamps[2].0, lamps[2].1), (DVec3::new(0.0, 0.0, 4.0), &Spectrum::Rgb([100.0, 50.0, 0.0])));
     assert_eq!(lamps[2].3 * DVec3::NEG_Z, DVec3::Y, "its nadir turned to +y");
-    assert_eq!(lamps[3].1, [200.0; 3], "50 cd/klm of 2000 lm, twice");
+    assert_eq!(lamps[3].1, &Spectrum::Uniform(200.0), "50 cd/klm of 2000 lm, twice");
     assert!((lamps[3].2.flux() / (200.0 * PI) - 1.0).abs() < 1e-14);
     let of_lamp = scene.notes.iter().filter(|note| note.starts_with("\"lamp.ies\" ")).count();
     assert_eq!(of_lamp, 2, "{:?}", scene.notes);

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use photonlab_photometry::Spectrum;
 use photonlab_scene::read::{SceneError, read_scene};
 use photonlab_scene::{Bsdf, Scene};
 use tempfile::TempDir;
@@ -52,7 +53,7 @@ fn includes_stand_for_what_they_hold() {
     ]);
     let scene = read(folder.path()).unwrap_or_else(|error| panic!("{error}"));
     let found: Vec<Bsdf> = scene.shapes.into_iter().map(|shape| shape.bsdf).collect();
-    assert_eq!(found, [0.25, 0.75].map(|value| Bsdf::Diffuse { reflectance: [value; 3] }));
+    assert_eq!(found, [0.25, 0.75].map(|value| Bsdf::Diffuse { reflectance: Spectrum::Uniform(value) }));
     assert_eq!(scene.notes.len(), 1, "{:?}", scene.notes);
 }
 

@@ -1,7 +1,8 @@
 //! What light does: coatings, lamps, cameras and meters.
 
 use glam::DVec3;
-use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Meter, Microfacets, Pattern, Receiver, Roughness};
+use photonlab_photometry::Spectrum;
+use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Index, Meter, Microfacets, Pattern, Receiver, Roughness};
 
 use super::scene;
 
@@ -9,20 +10,22 @@ fn bsdf(xml: &str) -> Bsdf {
     scene(&format!("<shape type='sphere'>{xml}</shape>")).shapes.remove(0).bsdf
 }
 
+const WHITE: Spectrum = Spectrum::Uniform(1.0);
+
 fn diffuse(reflectance: f64) -> Bsdf {
-    Bsdf::Diffuse { reflectance: [reflectance; 3] }
+    Bsdf::Diffuse { reflectance: Spectrum::Uniform(reflectance) }
 }
 
 #[test]
 fn colours_have_many_spellings() {
     for (xml, expected) in [
-        ("<rgb name='reflectance' value='0.25'/>", [0.25; 3]),
-        ("<rgb name='reflectance' value='0.1, 0.2,0.3'/>", [0.1, 0.2, 0.3]),
-        ("<rgb name='reflectance' value=' 0.1 0.2  0.3 '/>", [0.1, 0.2, 0.3]),
-        ("<spectrum name='reflectance' value='0.25'/>", [0.25; 3]),
-        ("<float name='reflectance' value='0.25'/>", [0.25; 3]),
-        ("<float name='reflectance' value='2.5e-1'/>", [0.25; 3]),
-        ("", [0.5; 3]),
+        ("<rgb name='reflectance' value='0.25'/>", Spectrum::Rgb([0.25; 3])),
+        ("<rgb name='reflectance' value='0.1, 0.2,0.3'/>", Spectrum::Rgb([0.1, 0.2, 0.3])),
+        ("<rgb name='reflectance' value=' 0.1 0.2  0.3 '/>", Spectrum::Rgb([0.1, 0.2, 0.3])),
+        ("<spectrum name='reflectance' value='0.25'/>", Spectrum::Uniform(0.25)),
+        ("<float name='reflectance' value='0.25'/>", Spectrum::Uniform(0.25)),
+        ("<float name='reflectance' value='2.5e-1'/>", Spectrum::Uniform(0.25)),
+        ("", Spectrum::Uniform(0.5)),
     ] {
         let found = bsdf(&format!("<bsdf type='diffuse'>{xml}</bsdf>"));
         assert_eq!(found, Bsdf::Diffuse { reflectance: expected }, "{xml}");
@@ -37,20 +40,21 @@ fn a_shape_without_coating_is_grey_or_black() {
 
 #[test]
 fn dielectrics_take_numbers_and_names() {
-    let smooth = |interior_index, exterior_index, transmitted| {
+    let smooth = |interior_index, exterior_index, [reflected, transmitted]: [Spectrum; 2]| {
         Bsdf::Dielectric(Dielectric {
-            interior_index,
-            exterior_index,
-            specular: [[1.0; 3], transmitted],
+            interior_index: Index::Constant(interior_index),
+            exterior_index: Index::Constant(exterior_index),
+            specular: [reflected, transmitted],
             roughness: None,
         })
     };
-    assert_eq!(bsdf("<bsdf type='dielectric'/>"), smooth(1.5046, 1.000277, [1.0; 3]));
+    assert_eq!(bsdf("<bsdf type='dielectric'/>"), smooth(1.5046, 1.000277, [WHITE; 2]));
     let named = "<string name='int_ior' value='Diamond'/><string name='ext_ior' value='carbon dioxide'/>";
-    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")), smooth(2.419, 1.00045, [1.0; 3]));
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{named}</bsdf>")), smooth(2.419, 1.00045, [WHITE; 2]));
     let numbers = "<float name='int_ior' value='1'/><integer name='ext_ior' value='2'/>
         <rgb name='specular_reflectance' value='1 1 1'/><rgb name='specular_transmittance' value='1 0.5 0'/>";
-    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")), smooth(1.0, 2.0, [1.0, 0.5, 0.0]));
+    let tinted = smooth(1.0, 2.0, [[1.0; 3], [1.0, 0.5, 0.0]].map(Spectrum::Rgb));
+    assert_eq!(bsdf(&format!("<bsdf type='dielectric'>{numbers}</bsdf>")), tinted);
 }
 
 #[test]
@@ -68,32 +72,32 @@ fn microfacets_are_beckmanns_unless_the_file_says_otherwise() {
 #[test]
 fn a_conductor_of_no_metal_is_a_mirror() {
     for xml in ["", "<string name='material' value='none'/>"] {
-        assert_eq!(bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")), Bsdf::Mirror { reflectance: [1.0; 3] });
+        assert_eq!(bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")), Bsdf::Mirror { reflectance: WHITE });
     }
     let dim = "<bsdf type='conductor'><rgb name='specular_reflectance' value='0.9 0.8 0.7'/></bsdf>";
-    assert_eq!(bsdf(dim), Bsdf::Mirror { reflectance: [0.9, 0.8, 0.7] });
+    assert_eq!(bsdf(dim), Bsdf::Mirror { reflectance: Spectrum::Rgb([0.9, 0.8, 0.7]) });
 }
 
 #[test]
 fn metals_have_names_and_numbers() {
     let metal = |xml: &str| match bsdf(&format!("<bsdf type='conductor'>{xml}</bsdf>")) {
-        Bsdf::Conductor(metal) => (metal.eta, metal.k),
+        Bsdf::Conductor(metal) => [metal.eta, metal.k].map(|part| part.rgb().expect("no curve")),
         other => panic!("{other:?}"),
     };
-    assert_eq!(metal("<float name='eta' value='0.2'/>"), ([0.2; 3], [1.0; 3]));
-    assert_eq!(metal("<rgb name='k' value='1 2 3'/>"), ([0.0; 3], [1.0, 2.0, 3.0]));
+    assert_eq!(metal("<float name='eta' value='0.2'/>"), [[0.2; 3], [1.0; 3]]);
+    assert_eq!(metal("<rgb name='k' value='1 2 3'/>"), [[0.0; 3], [1.0, 2.0, 3.0]]);
     let gold = metal("<string name='material' value='au'/>");
-    assert!(gold.0[2] > gold.0[0] && gold.1[0] > gold.1[2], "gold reflects red better than blue: {gold:?}");
+    assert!(gold[0][2] > gold[0][0] && gold[1][0] > gold[1][2], "gold reflects red better than blue: {gold:?}");
 }
 
 #[test]
 fn plates_coats_masks_and_transmitters() {
-    let thin = Bsdf::ThinDielectric { relative_index: 1.5, specular: [[1.0; 3]; 2] };
+    let thin = Bsdf::ThinDielectric { relative_index: 1.5, specular: [WHITE; 2] };
     let air = "<float name='int_ior' value='1.5'/><float name='ext_ior' value='1'/>";
     assert_eq!(bsdf(&format!("<bsdf type='thindielectric'>{air}</bsdf>")), thin);
     let plastic = |nonlinear| Bsdf::Plastic {
-        reflectance: [0.5; 3],
-        specular_reflectance: [1.0; 3],
+        reflectance: Spectrum::Uniform(0.5),
+        specular_reflectance: WHITE,
         relative_index: 1.5,
         nonlinear,
     };
@@ -106,7 +110,10 @@ fn plates_coats_masks_and_transmitters() {
     assert_eq!(bsdf(third), mask(0.3));
     let paper = "<bsdf type='diffusetransmitter'><float name='reflectance' value='0.6'/>
         <float name='transmittance' value='0.4'/></bsdf>";
-    assert_eq!(bsdf(paper), Bsdf::Transmitter { reflectance: [0.6; 3], transmittance: [0.4; 3] });
+    assert_eq!(
+        bsdf(paper),
+        Bsdf::Transmitter { reflectance: Spectrum::Uniform(0.6), transmittance: Spectrum::Uniform(0.4) }
+    );
     assert_eq!(bsdf("<bsdf type='null'/>"), Bsdf::Null);
 }
 
@@ -132,7 +139,7 @@ fn a_ref_stands_for_an_earlier_bsdf() {
          <shape type='cube'><ref id='c'/></shape>",
     );
     let both = Bsdf::TwoSided { front: Box::new(diffuse(0.1)), back: Box::new(diffuse(0.1)) };
-    let mirror = Bsdf::Mirror { reflectance: [1.0; 3] };
+    let mirror = Bsdf::Mirror { reflectance: WHITE };
     let found: Vec<Bsdf> = scene.shapes.into_iter().map(|shape| shape.bsdf).collect();
     assert_eq!(found, [diffuse(0.1), both, mirror.clone(), mirror]);
 }
@@ -150,15 +157,20 @@ fn lamps_have_positions_directions_and_strengths() {
     let directional = |number: usize, direction, irradiance| Emitter::Directional {
         id: format!("emitter-{number}"),
         direction,
-        irradiance: [irradiance; 3],
+        irradiance: Spectrum::Uniform(irradiance),
     };
     assert_eq!(
         scene.emitters[0],
-        Emitter::Point { id: "p".to_owned(), position: DVec3::X, intensity: [3.0; 3], pattern: Pattern::Isotropic }
+        Emitter::Point {
+            id: "p".to_owned(),
+            position: DVec3::X,
+            intensity: Spectrum::Uniform(3.0),
+            pattern: Pattern::Isotropic
+        }
     );
     assert_eq!(scene.emitters[1], directional(1, DVec3::NEG_Z, 1.0));
     assert_eq!(scene.emitters[2], directional(2, DVec3::new(0.6, 0.0, -0.8), 0.0));
-    assert_eq!(scene.shapes[0].radiance, Some([1.0, 2.0, 3.0]));
+    assert_eq!(scene.shapes[0].radiance, Some(Spectrum::Rgb([1.0, 2.0, 3.0])));
 }
 
 #[test]

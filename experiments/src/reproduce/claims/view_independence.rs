@@ -3,8 +3,9 @@
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Interval, Point, Record, Row, Series, SeriesKind, Verdict,
 };
+use photonlab_photometry::Palette;
 use photonlab_readout::{Cell, MapFile, MapHeader, Outcome, Source, Wanted, scene_identity, trace_pass};
-use photonlab_sampling::Lamps;
+use photonlab_sampling::Optics;
 use photonlab_scene::{Film, Receiver};
 use photonlab_trace::Classes;
 use serde::Deserialize;
@@ -81,7 +82,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
 
 fn build(lab: &Lab, p: &Parameters) -> anyhow::Result<MapFile<CHANNELS>> {
     let settings = Strategy::FINAL_GATHER.settings(p.seed);
-    let lamps = Lamps::<CHANNELS>::new(&lab.world);
+    let optics = Optics::<CHANNELS>::new(&lab.world, Palette::Channels);
     let header = MapHeader {
         channels: CHANNELS as u32,
         identity: scene_identity(&lab.world.scene),
@@ -91,7 +92,7 @@ fn build(lab: &Lab, p: &Parameters) -> anyhow::Result<MapFile<CHANNELS>> {
     };
     let share = |pass: u64| p.photons * (pass + 1) / PASSES - p.photons * pass / PASSES;
     let passes =
-        (0..PASSES).map(|pass| trace_pass(&lab.world, &lamps, &settings, Classes::ALL, pass as u32, share(pass)));
+        (0..PASSES).map(|pass| trace_pass(&lab.world, &optics, &settings, Classes::ALL, pass as u32, share(pass)));
     Ok(MapFile { header, passes: passes.collect::<Result<_, _>>()? })
 }
 

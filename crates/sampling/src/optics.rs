@@ -1,0 +1,111 @@
+//! What a scene does to light, in the channels in which it is followed.
+
+use photonlab_photometry::{Colour, Palette};
+use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, World};
+
+use crate::{Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular};
+
+/// Lamps and coatings in `C` channels: of a scene, or of one pass where wavelengths are drawn for each.
+#[derive(Clone, Debug)]
+pub struct Optics<const C: usize> {
+    /// What the channels stand for.
+    pub palette: Palette<C>,
+    /// What emits.
+    pub lamps: Lamps<C>,
+    /// By shape.
+    coatings: Vec<Coating<C>>,
+}
+
+/// What a shape does to light on either side.
+#[derive(Clone, Copy, Debug)]
+struct Coating<const C: usize> {
+    front: Interaction<C>,
+    back: Interaction<C>,
+    /// Share of light that meets the surface at all.
+    opacity: f64,
+}
+
+impl<const C: usize> Optics<C> {
+    /// Of a scene whose channels the palette fits.
+    pub fn new(world: &World, palette: Palette<C>) -> Self {
+        let coatings = world.scene.shapes.iter().map(|shape| Coating::new(&shape.bsdf, &palette)).collect();
+        Self { lamps: Lamps::new(world, &palette), coatings, palette }
+    }
+
+    /// What happens at a hit to the light that meets the surface, and the share of light that does: what a mask leaves open
+    /// goes on as if there were none. Photons are stored before that is drawn, for they have arrived.
+    #[inline]
+    pub fn interaction(&self, world: &World, hit: &Hit) -> (&Interaction<C>, f64) {
+        let coating = &self.coatings[world.primitives[hit.point.primitive as usize].shape as usize];
+        (if hit.front { &coating.front } else { &coating.back }, coating.opacity)
+    }
+}
+
+impl<const C: usize> Coating<C> {
+    fn new(bsdf: &Bsdf, palette: &Palette<C>) -> Self {
+        let side = |bsdf: &Bsdf, front: bool| match bsdf {
+            bsdf if front || bsdf.joins_its_sides() => interaction(bsdf, front, palette),
+            _ => Interaction::Absorbed,
+        };
+        match bsdf {
+            Bsdf::Mask { opacity, surface } => Self { opacity: *opacity, ..Self::new(surface, palette) },
+            Bsdf::TwoSided { front, back } => Self { front: side(front, true), back: side(back, true), opacity: 1.0 },
+            bsdf => Self { front: side(bsdf, true), back: side(bsdf, false), opacity: 1.0 },
+        }
+    }
+}
+
+fn interaction<const C: usize>(bsdf: &Bsdf, front: bool, palette: &Palette<C>) -> Interaction<C> {
+    let colour = |spectrum| palette.colour(spectrum);
+    let followed = |specular| Interaction::Followed(Followed::Specular(specular));
+    match bsdf {
+        Bsdf::TwoSided { .. } | Bsdf::Mask { .. } => Interaction::Absorbed,
+        Bsdf::Null => Interaction::Passed,
+        Bsdf::Diffuse { reflectance } => Interaction::Matte(Matte::bare(colour(reflectance))),
+        Bsdf::Transmitter { reflectance, transmittance } => {
+            Interaction::Matte(Matte::transmitting(colour(reflectance), colour(transmittance)))
+        }
+        Bsdf::Plastic { reflectance, specular_reflectance, relative_index, nonlinear } => Interaction::Matte(
+            Matte::coated(colour(reflectance), colour(specular_reflectance), *relative_index, *nonlinear),
+        ),
+        Bsdf::Mirror { reflectance } => followed(Specular::Mirror { reflectance: colour(reflectance) }),
+        Bsdf::ThinDielectric { relative_index, specular: [reflected, transmitted] } => followed(Specular::Thin {
+            relative_index: *relative_index,
+            reflectance: colour(reflected),
+            transmittance: colour(transmitted),
+        }),
+        Bsdf::Conductor(metal) => Interaction::Followed(conductor(metal, palette)),
+        Bsdf::Dielectric(glass) => dielectric(glass, front, palette),
+    }
+}
+
+fn conductor<const C: usize>(metal: &Conductor, palette: &Palette<C>) -> Followed<C> {
+    let [eta, k, reflectance] = [&metal.eta, &metal.k, &metal.specular_reflectance].map(|s| palette.colour(s));
+    match metal.roughness {
+        None => Followed::Specular(Specular::Conductor { eta, k, reflectance }),
+        Some(roughness) => Followed::Rough(Rough {
+            facets: Facets::new(roughness),
+            material: FacetMaterial::Conductor { eta, k, reflectance },
+        }),
+    }
+}
+
+fn dielectric<const C: usize>(glass: &Dielectric, front: bool, palette: &Palette<C>) -> Interaction<C> {
+    let relative = |nm: f64| {
+        let ratio = glass.interior_index.at(nm) / glass.exterior_index.at(nm);
+        if front { ratio } else { 1.0 / ratio }
+    };
+    let [reflectance, transmittance] = [&glass.specular[0], &glass.specular[1]].map(|s| palette.colour(s));
+    let facets = glass.roughness.map(Facets::new);
+    let disperses = glass.interior_index.disperses() || glass.exterior_index.disperses();
+    match palette {
+        Palette::Wavelengths(drawn) if disperses => Interaction::Dispersed(Dispersive {
+            relative_index: Colour(drawn.nm.map(relative)),
+            reflectance,
+            transmittance,
+            facets,
+        }),
+        // An index that does not disperse is the same at any wavelength.
+        _ => Interaction::Followed(Followed::dielectric(relative(550.0), [reflectance, transmittance], facets)),
+    }
+}
