@@ -33,6 +33,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("table lamp", 1),
     ("meters below a table lamp", 12),
     ("goniometer, round trip", 1),
+    ("luminaire by wavelength", 3),
     ("integrating sphere", 8),
     ("integrating sphere, colour", 6),
     ("integrating sphere, bounces", 5),

@@ -11,7 +11,10 @@ use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics};
-use photonlab_scene::{Needs, World, read::{read_scene, read_scene_str}};
+use photonlab_scene::{
+    Needs, World,
+    read::{read_scene, read_scene_str},
+};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
 
 /// Confidence of the intervals that may end a run; no test of this crate ends one by its error.

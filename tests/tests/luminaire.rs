@@ -139,3 +139,33 @@ fn a_lamp_survives_the_goniometer() {
     family.compare("second reading", p_value, format!("chi-square {statistic:.1} with {degrees} degrees"));
     family.decide();
 }
+
+/// In a scene by wavelength a luminaire keeps its lumens, whatever its spectrum: 1000 cd from 2 m above are 250 lx, read from
+/// drawn wavelengths by the eye.
+#[test]
+fn a_luminaire_keeps_its_lumens_by_wavelength() {
+    let mut family = Family::new("luminaire by wavelength");
+    let program = Program::new(env!("CARGO_BIN_EXE_photonlab-under-test"));
+    let even = IntensityTable::new(Symmetry::Rotational, &[0.0], &[0.0, 90.0, 180.0], &[1000.0; 3]).expect("a table");
+    program.write("even.ies", write_lm63(&even, &[]));
+    for tint in ["", r#"<spectrum name="tint" value="400:0.1, 600:7, 601:0"/>"#, r#"<float name="tint" value="1"/>"#] {
+        program.write(
+            "scene.xml",
+            format!(
+                r#"<scene version="3.0.0"><emitter type="ies"><string name="filename" value="even.ies"/>{tint}
+                <point name="position" x="0" y="0" z="2"/></emitter>
+                <shape type="rectangle"><transform name="to_world"><scale value="0.01"/></transform>
+                <bsdf type="diffuse"><spectrum name="reflectance" value="400:0, 700:0"/></bsdf>
+                <sensor type="irradiancemeter"/></shape></scene>"#
+            ),
+        );
+        let measured = program.measure(&format!("scene.xml --units photometric --seed {} --spp 20000", seed(315)));
+        let reading = &measured["readings"][0];
+        let number = |name: &str| reading[name].as_f64().unwrap_or_else(|| panic!("{name} of {reading}"));
+        assert_eq!(reading["unit"], "lx");
+        let z = (number("value") - 250.0) / number("std_error");
+        let law = statrs::distribution::Normal::standard();
+        family.compare(format!("tint `{tint}`"), 2.0 * law.cdf(-z.abs()), format!("{reading}"));
+    }
+    family.decide();
+}

@@ -110,8 +110,12 @@ mod tests {
     /// A lamp of this table at 2 m above the origin, turned about x by a quarter if asked for.
     fn world(table: IntensityTable, intensity: f64, to_world: DMat3) -> (World, Lamps<1>) {
         let pattern = Pattern::Table { table: Arc::new(table), to_world };
-        let emitter =
-            Emitter::Point { id: "lamp".into(), position: 2.0 * DVec3::Z, intensity: Spectrum::Uniform(intensity), pattern };
+        let emitter = Emitter::Point {
+            id: "lamp".into(),
+            position: 2.0 * DVec3::Z,
+            intensity: Spectrum::Uniform(intensity),
+            pattern,
+        };
         let (shapes, sensors, notes) = (vec![], vec![], vec![]);
         let world = World::new(Scene { shapes, emitters: vec![emitter], sensors, max_depth: None, notes });
         let lamps = Lamps::new(&world, &Palette::Channels);

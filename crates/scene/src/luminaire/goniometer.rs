@@ -5,7 +5,8 @@
 //! the poles, where the outermost rows go on evenly), and its values are found by the iteration of Richardson (1972) and
 //! Lucy (1974): it keeps values from falling below zero and the total flux at the counted one in every step, and tends to
 //! the table under which the counts are the likeliest. That has the counted flux in every cell, unless the light ends so
-//! sharply inside a cell that no table of these angles without negative values does.
+//! sharply inside a cell that no table of these angles without negative values does: then a few per cent of the flux around
+//! the end may lie in the wrong one of two neighbouring cells, as with any table of such angles.
 
 use super::{Cell, IntensityTable, LuminaireError, Symmetry};
 

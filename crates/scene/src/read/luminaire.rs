@@ -11,6 +11,7 @@ use crate::{Emitter, Pattern};
 use super::element::Element;
 use super::emitter::check_one_of;
 use super::error::{Fault, SceneError};
+use super::lumens::lumens;
 use super::names::quote;
 use super::number::Range;
 use super::object::Object;
@@ -18,8 +19,11 @@ use super::picture::beside;
 use super::scene::Builder;
 use super::transform::{turn, unit};
 
-/// A far-field point source whose intensities stand in a file. `flux` (lm) replaces the file's, `tint` multiplies it. It is
-/// placed by `to_world`, or by `position` and by the `direction` in which its nadir looks, turned there the shortest way
+/// Least luminous equivalent of a spectrum that is scaled to one.
+const SMALLEST_LUMENS: f64 = 1e-12;
+
+/// A far-field point source whose intensities stand in a file. `flux` (lm) replaces the file's; `tint` multiplies it, or, if it
+/// is by wavelength, is the light's relative spectrum, with the lumens as they are. It is placed by `to_world`, or by `position` and by the `direction` in which its nadir looks, turned there the shortest way
 /// (straight up: about its own y).
 pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {
     let file = object.take("filename", &["string"])?;
@@ -29,7 +33,7 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     check_one_of(&object, given, placed, "position")?;
     check_one_of(&object, along, placed, "direction")?;
     let flux = object.float("flux", Range::EMISSION)?;
-    let tint = object.colour("tint", Range::EMISSION)?.unwrap_or(Spectrum::Uniform(1.0));
+    let mut tint = object.colour("tint", Range::EMISSION)?.unwrap_or(Spectrum::Uniform(1.0));
     if object.float("sampling_weight", Range::ANY)?.is_some() {
         builder.note("sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
@@ -45,6 +49,15 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
         })?,
     };
     let table = table(element, file.required("value"), builder)?;
+    if tint.is_curve() {
+        let lumens = lumens(&tint);
+        if lumens < SMALLEST_LUMENS {
+            return Err(
+                element.error("tint has no visible light", "a luminaire is in lumens; give it a visible spectrum")
+            );
+        }
+        tint = tint.scaled(lumens.recip());
+    }
     let scale = flux.map_or(1.0, |flux| flux / table.flux()) * table.brightest();
     let intensity = tint.scaled(scale);
     let brightest = |fault: Fault| element.error(format!("its brightest intensity {}", fault.what), fault.mend);

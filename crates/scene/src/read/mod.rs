@@ -17,6 +17,7 @@ mod film;
 mod index;
 mod integrator;
 mod load;
+mod lumens;
 mod luminaire;
 mod metal;
 mod names;

@@ -13,6 +13,7 @@ use super::emitter::emitter;
 use super::error::{Place, SceneError};
 use super::integrator::integrator;
 use super::load::Loaded;
+use super::lumens::keep_lumens;
 use super::names::quote;
 use super::sensor::{Position, sensor};
 use super::shape::shape;
@@ -38,6 +39,7 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     for element in &root.children {
         builder.part(element)?;
     }
+    keep_lumens(&mut builder.scene);
     Ok(builder.scene)
 }
 
