@@ -3,7 +3,7 @@
 use std::{io::Write, time::Instant};
 
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
-use photonlab_photometry::{Colour, PathClass, Response, UnitSystem};
+use photonlab_photometry::{Colour, PathClass, Response};
 use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
 use photonlab_scene::{Emitter, Needs, Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
@@ -55,7 +55,7 @@ fn run<const C: usize>(
     start: Instant,
 ) -> Result<Measurement, Failure> {
     let options = &Options { method: method_for(cells, arguments.options.method), ..arguments.options.clone() };
-    let optics = optics::<C>(loaded, &arguments.scene.scene, response(options))?;
+    let optics = optics::<C>(loaded, &arguments.scene.scene, Response::of(options.unit_system()))?;
     let mut settings = options.settings(&loaded.world.scene)?;
     is_readable(&loaded.world.scene, cells, &settings)?;
     let map = open_map::<C>(options, loaded, &mut settings)?;
@@ -98,14 +98,6 @@ pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
              that were ended early ({share:.3} % of the emitted flux)",
             ledger.trapped_paths
         );
-    }
-}
-
-/// What light of a scene with wavelengths counts for.
-fn response(options: &Options) -> Response {
-    match options.unit_system() {
-        UnitSystem::Radiometric => Response::Radiometric,
-        UnitSystem::Photometric => Response::Photometric,
     }
 }
 

@@ -52,6 +52,9 @@ pub const SUITE: &[(&str, usize)] = &[
     ("ball lens, transport", 5),
     ("white furnace, eye", 27),
     ("white furnace, photons", 9),
+    ("coloured sphere", 4),
+    ("prism", 14),
+    ("dispersive furnace", 2),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

@@ -79,23 +79,36 @@ impl Lab {
 
     /// Reads every meter.
     pub fn measure<const C: usize>(&self, settings: Settings, photons: u64, passes: u64, spp: u64) -> Outcome<C> {
-        self.read(&Cell::of_meters(&self.world.scene), settings, photons, passes, spp)
+        self.measure_as(Response::Radiometric, settings, photons, passes, spp)
+    }
+
+    /// Reads every meter in watts or lumens.
+    pub fn measure_as<const C: usize>(
+        &self,
+        response: Response,
+        settings: Settings,
+        photons: u64,
+        passes: u64,
+        spp: u64,
+    ) -> Outcome<C> {
+        self.read(&Cell::of_meters(&self.world.scene), response, settings, photons, passes, spp)
     }
 
     /// Reads every pixel of the first sensor.
     pub fn render<const C: usize>(&self, settings: Settings, photons: u64, passes: u64, spp: u64) -> Outcome<C> {
-        self.read(&Cell::of_sensor(&self.world.scene, 0), settings, photons, passes, spp)
+        self.read(&Cell::of_sensor(&self.world.scene, 0), Response::Radiometric, settings, photons, passes, spp)
     }
 
     fn read<const C: usize>(
         &self,
         cells: &[Cell],
+        response: Response,
         settings: Settings,
         photons: u64,
         passes: u64,
         samples: u64,
     ) -> Outcome<C> {
-        let optics = PassOptics::new(&self.world, Response::Radiometric).expect("lamps that count");
+        let optics = PassOptics::new(&self.world, response).expect("lamps that count");
         let (world, needs) = (&self.world, &self.needs);
         let session =
             Session { world, optics: &optics, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };

@@ -1,6 +1,6 @@
 //! What a channel stands for while light is followed, and how channels become results.
 
-use crate::{Colour, PEAK_EFFICACY, SRGB_OF_XYZ, Spectrum, matching, sensitivity};
+use crate::{Colour, PEAK_EFFICACY, SRGB_OF_XYZ, Spectrum, UnitSystem, matching, sensitivity};
 
 /// What light counts for in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -14,6 +14,14 @@ pub enum Response {
 }
 
 impl Response {
+    /// Of readings in a system of units.
+    pub fn of(units: UnitSystem) -> Self {
+        match units {
+            UnitSystem::Radiometric => Response::Radiometric,
+            UnitSystem::Photometric => Response::Photometric,
+        }
+    }
+
     /// Results for each place.
     pub fn results(self) -> usize {
         if self == Response::Image { 3 } else { 1 }

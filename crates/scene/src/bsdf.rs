@@ -125,13 +125,18 @@ impl Bsdf {
         }
     }
 
+    /// The refractive indices on its sides, where they may differ with the wavelength.
+    pub fn indices(&self) -> Vec<&Index> {
+        match self {
+            Bsdf::Dielectric(glass) => vec![&glass.interior_index, &glass.exterior_index],
+            Bsdf::Mask { surface, .. } => surface.indices(),
+            _ => Vec::new(),
+        }
+    }
+
     /// True if it refracts wavelengths differently.
     pub fn disperses(&self) -> bool {
-        match self {
-            Bsdf::Dielectric(glass) => glass.interior_index.disperses() || glass.exterior_index.disperses(),
-            Bsdf::Mask { surface, .. } => surface.disperses(),
-            _ => false,
-        }
+        self.indices().into_iter().any(Index::disperses)
     }
 
     /// True if light can leave it in directions of a lobe or a line: by mirror reflection, refraction or microfacets.

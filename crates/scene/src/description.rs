@@ -1,7 +1,7 @@
 //! What a scene file says, in world units, checked but not yet prepared for ray casting.
 
 use glam::{DAffine3, DMat3, DVec3};
-use photonlab_photometry::{Channels, Spectrum, UnitSystem};
+use photonlab_photometry::{Channels, Spectrum, UnitSystem, VISIBLE};
 
 use crate::{Bsdf, Emitter, EnvironmentLight, Sensor};
 
@@ -89,6 +89,16 @@ impl Scene {
             },
         });
         surfaceless.chain(self.shapes.iter().filter_map(|shape| shape.radiance.as_ref())).collect()
+    }
+
+    /// The shortest and the longest wavelength that any lamp emits, nm: the visible ones, and those of lamps given by
+    /// wavelength.
+    pub fn band(&self) -> [f64; 2] {
+        let ranges = self.emissions().into_iter().filter_map(|emission| match emission {
+            Spectrum::Curve(curve) => Some(curve.range()),
+            _ => None,
+        });
+        ranges.fold(VISIBLE, |band, range| [band[0].min(range[0]), band[1].max(range[1])])
     }
 
     /// True if the scene holds anything that emits.

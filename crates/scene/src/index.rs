@@ -32,6 +32,17 @@ impl Index {
         }
     }
 
+    /// True if it is known, and an index, from one wavelength (nm) to another.
+    pub fn holds_over(&self, band: [f64; 2]) -> bool {
+        let known = match self {
+            Index::Table(curve) => curve.range()[0] <= band[0] && band[1] <= curve.range()[1],
+            _ => true,
+        };
+        // A pole between the ends shows as an index below one, or none, near it.
+        let steps = (0..=1000).map(|i| band[0] + (band[1] - band[0]) * f64::from(i) / 1000.0);
+        known && steps.into_iter().all(|nm| (1.0..=100.0).contains(&self.at(nm)))
+    }
+
     /// True if it depends on the wavelength.
     pub fn disperses(&self) -> bool {
         !matches!(self, Index::Constant(_))

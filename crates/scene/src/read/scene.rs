@@ -39,8 +39,24 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     for element in &root.children {
         builder.part(element)?;
     }
+    check_indices(root, &builder.scene)?;
     keep_lumens(&mut builder.scene);
     Ok(builder.scene)
+}
+
+/// Glass must be known at every wavelength that a lamp emits.
+fn check_indices(root: &Element, scene: &Scene) -> Result<(), SceneError> {
+    let band = scene.band();
+    for shape in &scene.shapes {
+        if shape.bsdf.indices().into_iter().any(|index| !index.holds_over(band)) {
+            let what = format!(
+                "the index of `{}` is not known from {} to {} nm, where the lamps emit",
+                shape.id, band[0], band[1]
+            );
+            return Err(root.error(what, "give the index over that range, or cut the lamps' spectra"));
+        }
+    }
+    Ok(())
 }
 
 impl<'e> Builder<'e> {

@@ -38,7 +38,7 @@ fn the_cornell_lamp_hangs_below_the_ceiling_and_shines_down() {
     assert_eq!(scene.shapes.len(), 8);
     let lamp = scene.shapes.iter().find(|shape| shape.id == "lamp").expect("a lamp");
     assert_eq!(lamp.radiance, Some(Spectrum::Rgb([18.387, 13.9873, 6.75357])));
-    assert_eq!(lamp.bsdf, Bsdf::Diffuse { reflectance: Spectrum::Uniform(0.0) });
+    assert_eq!(lamp.bsdf, Bsdf::Diffuse { reflectance: Spectrum::Rgb([0.0; 3]) });
     let Geometry::Rectangle { to_world } = &lamp.geometry else { panic!("{:?}", lamp.geometry) };
     assert_eq!(to_world.translation, DVec3::new(0.0, 0.99, 0.01));
     assert_eq!(to_world.transform_vector3(DVec3::X), DVec3::new(0.23, 0.0, 0.0));
