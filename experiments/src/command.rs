@@ -142,6 +142,9 @@ pub(crate) struct Measure {
     /// Write one JSON object.
     #[arg(long, overrides_with = "json")]
     pub(crate) json: bool,
+    /// Write what a goniometer reads as a luminaire file (LM-63) too; needs --units photometric.
+    #[arg(long, value_name = "FILE")]
+    pub(crate) ies: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) options: Options,
 }

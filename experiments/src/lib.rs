@@ -13,6 +13,7 @@ mod exr_header;
 mod failure;
 mod false_colour;
 mod fixed_command;
+mod goniometer;
 mod image;
 mod interrupt;
 mod loaded;

@@ -12,6 +12,7 @@ use crate::{
     Failure, by_channels,
     command::{self, MethodName, Options},
     fixed_command::fixed_command,
+    goniometer::LuminaireFile,
     loaded::{Loaded, channel_names, open_map, optics, read_failure, schedule, sensors, wanted},
     progress::Progress,
     system,
@@ -36,7 +37,12 @@ pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {
     let is_meter = |receiver: &Receiver| matches!(receiver, Receiver::Meter(_));
     let chosen = sensors(&loaded.world.scene, file, arguments.options.sensor.as_deref(), "meter", is_meter)?;
     let cells: Vec<Cell> = chosen.iter().flat_map(|&index| Cell::of_sensor(&loaded.world.scene, index)).collect();
+    let file_of = arguments.ies.as_deref().map(|path| LuminaireFile::new(path, &loaded, &chosen, &arguments.options));
+    let luminaire_file = file_of.transpose()?;
     let measurement = by_channels!(loaded.needs.channels, run(arguments, &loaded, &cells, start))?;
+    if let Some(file) = luminaire_file {
+        file.write(&measurement)?;
+    }
     let text = if arguments.json { measurement.to_json()? } else { table(&measurement, arguments.options.confidence) };
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())

@@ -1,6 +1,9 @@
 //! Scenes traced and read in this process, as the command does it.
 
-use std::{path::PathBuf, time::Duration};
+use std::{
+    path::{Path, PathBuf},
+    time::Duration,
+};
 
 use photonlab_gather::AreaModel;
 use photonlab_photometry::{Palette, Response};
@@ -8,7 +11,10 @@ use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics};
-use photonlab_scene::{Needs, World, read::read_scene_str};
+use photonlab_scene::{
+    Needs, World,
+    read::{read_scene, read_scene_str},
+};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
 
 /// Confidence of the intervals that may end a run; no test of this crate ends one by its error.
@@ -34,6 +40,15 @@ impl Lab {
     /// If the text is no scene.
     pub fn new(xml: &str) -> Self {
         let scene = read_scene_str(xml, "test scene", &[]).unwrap_or_else(|error| panic!("{error}\n{xml}"));
+        Self { needs: Needs::of(&scene), world: World::new(scene) }
+    }
+
+    /// Reads a scene from its file, with what that names.
+    ///
+    /// # Panics
+    /// If the file is no scene.
+    pub fn open(path: &Path) -> Self {
+        let scene = read_scene(path, &[]).unwrap_or_else(|error| panic!("{error}"));
         Self { needs: Needs::of(&scene), world: World::new(scene) }
     }
 

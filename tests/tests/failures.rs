@@ -70,6 +70,40 @@ fn a_scene_that_cannot_be_read_says_what_it_lacks() {
 }
 
 #[test]
+fn a_luminaire_file_needs_one_goniometer_in_candela() {
+    let program = program();
+    let meter = r#"<sensor type="intensitymeter"/>"#;
+    let lit = |lamp: &str, rest: &str| {
+        format!(
+            r#"<scene version="3.0.0"><emitter type="point"><rgb name="intensity" value="{lamp}"/></emitter>{rest}</scene>"#
+        )
+    };
+    program.write("one.xml", lit("1", meter));
+    program.write("two.xml", lit("1", &meter.repeat(2)));
+    program.write("coloured.xml", lit("1 0 1", meter));
+    let dark = r#"<shape type="cube"><bsdf type="diffuse"/></shape>"#;
+    program.write("dark.xml", lit("1", &format!("{meter}{dark}")));
+    for (line, words) in [
+        (format!("measure {} --ies lamp.ies", scene("cube.xml")), "no goniometer is read; add a <sensor"),
+        ("measure two.xml --units photometric --ies lamp.ies".into(), "2 goniometers are read; choose one by --sensor"),
+        ("measure one.xml --ies lamp.ies".into(), "a luminaire file is in candela; add --units photometric"),
+        ("measure one.xml --units photometric --ies lamp.ldt".into(), "a luminaire file's name ends in .ies"),
+        ("measure one.xml --units photometric --ies no/lamp.ies".into(), "the folder no does not exist; make it first"),
+        ("measure coloured.xml --units photometric --ies lamp.ies".into(), "has colours and a luminaire file has none"),
+        (
+            "measure dark.xml --units photometric --photons 1000 --ies lamp.ies".into(),
+            "the luminaire of sensor `sensor-0` emits nothing",
+        ),
+    ] {
+        fails(&program, &line, 2, &[words]);
+        assert!(!program.path("lamp.ies").exists(), "{line}");
+    }
+    let told = program.run("measure two.xml --sensor sensor-1 --units photometric --photons 20000 --ies lamp.ies");
+    assert_eq!(told.status, Some(0), "{}", told.err);
+    assert!(program.bytes("lamp.ies").starts_with(b"IESNA:LM-63-2002\r\n"));
+}
+
+#[test]
 fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
     let program = program();
     let cube = scene("cube.xml");

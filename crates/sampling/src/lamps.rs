@@ -112,7 +112,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
     match emitter {
         Emitter::Point { id, position, intensity, pattern } => {
             let intensity = palette.emission(intensity);
-            let kind = LampKind::Point { position: *position, intensity, pattern: *pattern };
+            let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
             Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
         }
         Emitter::Environment { id, light } => {

@@ -21,6 +21,7 @@ mod scatter;
 mod specular;
 mod spherical_rectangle;
 mod stream;
+mod tabulated;
 pub mod warp;
 mod wavelength_plan;
 mod window;

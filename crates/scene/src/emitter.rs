@@ -1,10 +1,13 @@
 //! Lamps without a surface.
 
+use std::sync::Arc;
+
 use glam::{DMat3, DVec3};
 
 use photonlab_photometry::Spectrum;
 
 use crate::Sky;
+use crate::luminaire::IntensityTable;
 
 /// Lamps without a surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +56,7 @@ impl Emitter {
 }
 
 /// How the intensity of a point source depends on direction, 1 in the brightest.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Pattern {
     /// The same in all directions.
     Isotropic,
@@ -72,6 +75,13 @@ pub enum Pattern {
         beam: f64,
         /// Half-angle beyond which there is nothing, in radians, at least `beam`.
         cutoff: f64,
+    },
+    /// In proportion to a luminaire's table (extension `ies`).
+    Table {
+        /// Its intensities; the pattern is 1 at the brightest.
+        table: Arc<IntensityTable>,
+        /// A rotation from the lamp's own axes, which [`crate::luminaire`] explains.
+        to_world: DMat3,
     },
 }
 

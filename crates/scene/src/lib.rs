@@ -11,6 +11,7 @@ mod cell;
 mod description;
 mod emitter;
 mod index;
+pub mod luminaire;
 mod needs;
 mod parallelogram;
 mod primitive;

@@ -8,6 +8,7 @@ use crate::{Emitter, Pattern};
 use super::element::Element;
 use super::environment::environment;
 use super::error::SceneError;
+use super::luminaire::luminaire;
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -23,6 +24,7 @@ pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Re
         "point" => point(object, id, builder)?,
         "spot" => spot(object, id, builder)?,
         "directional" => directional(object, id, builder)?,
+        "ies" => luminaire(object, id, builder)?,
         "constant" | "envmap" | "sky" => {
             if builder.scene.emitters.iter().any(|e| matches!(e, Emitter::Environment { .. })) {
                 return Err(element.error("a second environment", "keep one of constant, envmap and sky"));
@@ -112,7 +114,8 @@ pub(super) fn emission(object: &mut Object, name: &'static str, builder: &mut Bu
     Ok(object.colour(name, Range::EMISSION)?.unwrap_or(Spectrum::Uniform(1.0)))
 }
 
-fn check_one_of(
+/// Checks that a vector and `to_world` do not both say the same.
+pub(super) fn check_one_of(
     object: &Object,
     given: Option<DVec3>,
     to_world: Option<DAffine3>,

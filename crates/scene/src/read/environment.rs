@@ -11,7 +11,7 @@ use super::number::Range;
 use super::object::Object;
 use super::picture::picture;
 use super::scene::Builder;
-use super::transform::unit;
+use super::transform::{turn, unit};
 
 /// Reads the light of an environment.
 pub(super) fn environment(object: Object, builder: &mut Builder) -> Result<EnvironmentLight, SceneError> {
@@ -86,13 +86,8 @@ fn general(object: &mut Object, zenith: DVec3) -> Result<SkyLaw, SceneError> {
 /// The rotation that `to_world` states; what stands at infinity has no place and no size.
 pub(super) fn rotation(object: &mut Object) -> Result<DMat3, SceneError> {
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
-    let scale = to_world.matrix3.x_axis.length();
-    let axes = to_world.matrix3 * scale.recip();
-    let error = axes.transpose() * axes - DMat3::IDENTITY;
-    if error.to_cols_array().into_iter().any(|entry| entry.abs() > 1e-5) || axes.determinant() < 0.0 {
-        return Err(object
-            .element
-            .error("to_world of what stands at infinity is no rotation", "use rotate or lookat alone"));
-    }
-    Ok(axes)
+    turn(&to_world).ok_or_else(|| {
+        let what = "to_world of what stands at infinity is no rotation";
+        object.element.error(what, "use rotate or lookat alone")
+    })
 }

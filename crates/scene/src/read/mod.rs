@@ -17,6 +17,8 @@ mod film;
 mod index;
 mod integrator;
 mod load;
+mod lumens;
+mod luminaire;
 mod metal;
 mod names;
 mod number;
@@ -38,6 +40,7 @@ mod walk;
 use std::path::Path;
 
 pub use error::SceneError;
+pub(crate) use names::quote;
 
 use crate::Scene;
 use load::Loader;

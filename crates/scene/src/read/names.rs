@@ -6,7 +6,7 @@ const QUOTE_LIMIT: usize = 48;
 const LIST_LIMIT: usize = 24;
 
 /// The text in quotes, cut to a readable length, with control characters escaped.
-pub(super) fn quote(text: &str) -> String {
+pub(crate) fn quote(text: &str) -> String {
     let mut chars = text.chars();
     let shown: String = chars.by_ref().take(QUOTE_LIMIT).collect();
     let rest = if chars.next().is_some() { "..." } else { "" };

@@ -64,8 +64,8 @@ const BSDFS: Plugins = Plugins {
 };
 
 const EMITTERS: Plugins = Plugins {
-    built: &["area", "point", "spot", "directional", "constant", "envmap", "sky"],
-    later: &["ies"],
+    built: &["area", "point", "spot", "directional", "constant", "envmap", "sky", "ies"],
+    later: &[],
     foreign: &["directionalarea", "projector", "sunsky", "timed_sunsky", "volumelight"],
 };
 

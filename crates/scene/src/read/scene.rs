@@ -1,7 +1,10 @@
 //! The scene itself: its parts in the order of the file.
 
 use std::collections::HashMap;
+use std::path::PathBuf;
+use std::sync::Arc;
 
+use crate::luminaire::IntensityTable;
 use crate::{Bsdf, Scene};
 
 use super::bsdf::bsdf;
@@ -10,6 +13,7 @@ use super::emitter::emitter;
 use super::error::{Place, SceneError};
 use super::integrator::integrator;
 use super::load::Loaded;
+use super::lumens::keep_lumens;
 use super::names::quote;
 use super::sensor::{Position, sensor};
 use super::shape::shape;
@@ -22,6 +26,8 @@ pub(super) struct Builder<'e> {
     /// Every id of the whole scene, where it is and of which tag.
     pub(super) ids: &'e HashMap<String, (Place, &'static str)>,
     pub(super) integrator: Option<&'e Element>,
+    /// The luminaire files that were read so far: a room hangs one many times.
+    pub(super) luminaires: HashMap<PathBuf, Arc<IntensityTable>>,
 }
 
 /// Makes the scene that the tree describes.
@@ -29,11 +35,12 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     let Loaded { root, ids, notes } = &loaded;
     let scene =
         Scene { shapes: Vec::new(), emitters: Vec::new(), sensors: Vec::new(), max_depth: None, notes: notes.clone() };
-    let mut builder = Builder { scene, bsdfs: HashMap::new(), ids, integrator: None };
+    let mut builder = Builder { scene, bsdfs: HashMap::new(), ids, integrator: None, luminaires: HashMap::new() };
     for element in &root.children {
         builder.part(element)?;
     }
     check_indices(root, &builder.scene)?;
+    keep_lumens(&mut builder.scene);
     Ok(builder.scene)
 }
 

@@ -33,6 +33,14 @@ pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
     Some(vector / vector.length())
 }
 
+/// The rotation of a transform that rotates, moves and scales evenly; `None` of any other.
+pub(super) fn turn(transform: &DAffine3) -> Option<DMat3> {
+    let axes = transform.matrix3 * transform.matrix3.x_axis.length().recip();
+    let error = axes.transpose() * axes - DMat3::IDENTITY;
+    let turns = error.to_cols_array().into_iter().all(|entry| entry.abs() <= 1e-5) && axes.determinant() > 0.0;
+    turns.then_some(axes)
+}
+
 /// Three numbers from `x`, `y`, `z` or from `value` (one number for all three, or three). A missing coordinate is
 /// `missing`, or an error if that is `None`.
 pub(super) fn three(element: &Element, missing: Option<f64>) -> Result<DVec3, Fault> {
