@@ -54,6 +54,12 @@ LAMPS = {
 }
 
 
+SENSORS = {
+    "thin-lens": '<sensor type="thinlens"><float name="aperture_radius" value="0.25"/><float name="focus_distance" value="3"/>',
+    "thin-lens-near-focus": '<sensor type="thinlens"><float name="aperture_radius" value="0.1"/><float name="focus_distance" value="1"/>',
+}
+
+
 def write_sky(path):
     """A picture without any symmetry: a bright spot, a gradient in both directions, steps."""
     rows, columns = 24, 48
@@ -121,7 +127,10 @@ def blocks(image):
 
 def compare(photonlab, name, folder):
     path = folder / f"{name}.xml"
-    path.write_text(courtyard(LAMPS[name]) if name in LAMPS else room(MATERIALS[name]))
+    if name in SENSORS:
+        path.write_text(courtyard(LAMPS["spot"]).replace('<sensor type="perspective">', SENSORS[name]))
+    else:
+        path.write_text(courtyard(LAMPS[name]) if name in LAMPS else room(MATERIALS[name]))
     scene = mi.load_file(str(path))
     runs = np.array([blocks(np.array(mi.render(scene, spp=SPP, seed=i))) for i in range(REPEATS)])
     theirs, their_error = runs.mean(axis=0), runs.std(axis=0, ddof=1) / REPEATS**0.5
@@ -155,5 +164,5 @@ if __name__ == "__main__":
     arguments = [a for a in sys.argv[1:] if not a.startswith("--")]
     with tempfile.TemporaryDirectory() as folder:
         write_sky(Path(folder) / "sky.exr")
-        for name in arguments[1:] or [*MATERIALS, *LAMPS]:
+        for name in arguments[1:] or [*MATERIALS, *LAMPS, *SENSORS]:
             compare(arguments[0], name, Path(folder))

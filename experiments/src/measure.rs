@@ -112,7 +112,9 @@ fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(),
     let counts = settings.method == Method::Bins;
     let wrong = cells.iter().find_map(|cell| match cell.target {
         Target::Leaving { .. } if !counts => Some((cell, "an intensitymeter is read by --method bins alone")),
-        Target::Along(_) if counts => Some((cell, "photons cannot be counted along a ray; leave out --method bins")),
+        Target::Along(_) | Target::Distant { .. } if counts => {
+            Some((cell, "photons cannot be counted along a ray; leave out --method bins"))
+        }
         _ => None,
     });
     wrong.map_or(Ok(()), |(cell, why)| {

@@ -34,6 +34,8 @@ pub const SUITE: &[(&str, usize)] = &[
     ("meters below a table lamp", 12),
     ("goniometer, round trip", 1),
     ("luminaire by wavelength", 3),
+    ("thin lens", 3),
+    ("distant meters", 3),
     ("integrating sphere", 8),
     ("integrating sphere, colour", 6),
     ("integrating sphere, bounces", 5),

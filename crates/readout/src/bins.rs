@@ -33,7 +33,7 @@ impl<'w> Bins<'w> {
             match &of_sensor[0].target {
                 Target::Patch { shape, film, .. } => bins.on_shapes[*shape].push((*film, first)),
                 Target::Leaving { to_world, film } => bins.far.push((to_world.transpose(), *film, first)),
-                Target::Pixel { .. } | Target::Along(_) => {}
+                Target::Pixel { .. } | Target::Along(_) | Target::Distant { .. } => {}
             }
             first += of_sensor.len();
         }
@@ -76,6 +76,6 @@ fn measure(world: &World, cell: &Cell) -> f64 {
             let gamma = |row: u32| PI * f64::from(row) / f64::from(film.height);
             TAU / f64::from(film.width) * (gamma(cell.cell[1]).cos() - gamma(cell.cell[1] + 1).cos())
         }
-        Target::Pixel { .. } | Target::Along(_) => 1.0,
+        Target::Pixel { .. } | Target::Along(_) | Target::Distant { .. } => 1.0,
     }
 }

@@ -8,7 +8,12 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
 use photonlab_scene::{SurfacePoint, World};
 
-use crate::{Cell, Direct, Method, Settings, Target, cells::pixel_ray, lattice, maps::PassMaps};
+use crate::{
+    Cell, Direct, Method, Settings, Target,
+    cells::{distant_ray, pixel_ray},
+    lattice,
+    maps::PassMaps,
+};
 
 /// Looks into one pass's light.
 pub(crate) struct Look<'p, const C: usize> {
@@ -52,7 +57,7 @@ impl<const C: usize> Look<'_, C> {
         let rays = u64::from(self.settings.gather_rays);
         let first = (number as u64 * self.samples + sample) * (rays + 1);
         let mut eye = self.stream(first);
-        let [x, y, z, ..] = lattice::point(sample * rays, shift);
+        let [x, y, z, .., last] = lattice::point(sample * rays, shift);
         let (start, reach) = match &cell.target {
             Target::Leaving { .. } => return Sample { light: Light::default(), dark: false },
             Target::Patch { shape, film, .. } => {
@@ -65,7 +70,10 @@ impl<const C: usize> Look<'_, C> {
                 };
             }
             Target::Along(ray) => (*ray, f64::INFINITY),
-            Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y]),
+            Target::Distant { direction, target } => {
+                (distant_ray(self.world, *direction, *target, [x, y, z]), f64::INFINITY)
+            }
+            Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y], [z, last]),
         };
         let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
@@ -101,7 +109,7 @@ impl<const C: usize> Look<'_, C> {
         let rays = self.settings.gather_rays;
         let mut light = Light::default();
         for ray in 0..rays {
-            let [_, _, _, rest @ ..] = lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
+            let [_, _, _, rest @ .., _] = lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
             let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix(rest);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {

@@ -30,6 +30,6 @@ pub use needs::{Need, Needs};
 pub use parallelogram::Parallelogram;
 pub use primitive::{Hit, Primitive, Surface, SurfacePoint};
 pub use ray::Ray;
-pub use sensor::{Camera, Film, Meter, Receiver, Sensor};
+pub use sensor::{Camera, DistantTarget, Film, Lens, Meter, Receiver, Sensor};
 pub use sky::{Sky, SkyLaw};
 pub use world::World;

@@ -22,7 +22,7 @@ pub enum Receiver {
     Meter(Meter),
 }
 
-/// A pinhole camera with Mitsuba's conventions: it looks along +z, +x is to the left of the image, +y is up.
+/// A camera with Mitsuba's conventions: it looks along +z, +x is to the left of the image, +y is up.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     /// From camera space to the world (rotation and translation, possibly with scale; directions are normalised).
@@ -37,6 +37,17 @@ pub struct Camera {
     pub near_clip: f64,
     /// Nothing farther than this along the optical axis is seen, in metres.
     pub far_clip: f64,
+    /// Its lens; a pinhole if `None`.
+    pub lens: Option<Lens>,
+}
+
+/// A thin lens without a colour or an error: every point of its aperture sees the plane in focus alike.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lens {
+    /// Radius of the aperture, around the camera's position across the optical axis, metres.
+    pub aperture_radius: f64,
+    /// Distance to the plane in focus along the optical axis, metres.
+    pub focus_distance: f64,
 }
 
 /// A meter.
@@ -48,6 +59,13 @@ pub enum Meter {
         origin: DVec3,
         /// Unit vector in which it looks.
         direction: DVec3,
+    },
+    /// Mean radiance that leaves the scene against a direction (Mitsuba `distant`).
+    Distant {
+        /// Unit vector in which it looks.
+        direction: DVec3,
+        /// Where its rays go.
+        target: DistantTarget,
     },
     /// Irradiance on the front side of a shape, one reading per cell of (u, v).
     Irradiancemeter {
@@ -72,9 +90,21 @@ impl Meter {
     pub fn shape(&self) -> Option<usize> {
         match self {
             Meter::Irradiancemeter { shape } | Meter::Fluxmeter { shape } => Some(*shape),
-            Meter::Radiancemeter { .. } | Meter::Intensitymeter { .. } => None,
+            Meter::Radiancemeter { .. } | Meter::Distant { .. } | Meter::Intensitymeter { .. } => None,
         }
     }
+}
+
+/// What a distant meter averages over, seen from outside the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DistantTarget {
+    /// The cross-section of the scene's bounding sphere, around the middle of its bounding box.
+    Whole,
+    /// One point, metres.
+    Point(DVec3),
+    /// The area of a shape: an index into [`Scene::shapes`](crate::Scene::shapes). A shape that is a target alone has no
+    /// coating, so that no ray notices it.
+    Shape(usize),
 }
 
 /// The cells of a sensor.

@@ -1,21 +1,22 @@
-//! The pinhole camera, `perspective`.
+//! Cameras: `perspective`, a pinhole, and `thinlens`.
 
 use glam::{DAffine3, DMat3};
 
-use crate::{Camera, Film};
+use crate::{Camera, Film, Lens};
 
 use super::error::{Fault, SceneError};
 use super::names::quote;
 use super::number::{Range, float};
 use super::object::Object;
+use super::scene::Builder;
 
 /// Diagonal of the 36 x 24 mm film that `focal_length` refers to, in millimetres.
 const DIAGONAL: f64 = 43.266_615_305_567_87;
 /// Most that a squared length or a cosine of the camera's axes may be off, as in Mitsuba.
 const TOLERANCE: f64 = 1e-3;
 
-/// Reads what is the camera's own of a `perspective` sensor.
-pub(super) fn camera(object: &mut Object, film: Film) -> Result<Camera, SceneError> {
+/// Reads what is the camera's own of a `perspective` or `thinlens` sensor.
+pub(super) fn camera(object: &mut Object, film: Film, builder: &mut Builder) -> Result<Camera, SceneError> {
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
     check_rigid(object, &to_world)?;
     let aspect = f64::from(film.width) / f64::from(film.height);
@@ -31,7 +32,20 @@ pub(super) fn camera(object: &mut Object, film: Film) -> Result<Camera, SceneErr
         object.float("principal_point_offset_y", Range::COORDINATE)?.unwrap_or(0.0),
     ];
     let tan_half_height = tan_half_width / aspect;
-    Ok(Camera { to_world, tan_half_width, tan_half_height, principal_point_offset, near_clip, far_clip })
+    let focus_distance = object.float("focus_distance", Range::LENGTH)?;
+    let lens = if object.plugin == "thinlens" {
+        let aperture_radius = object.float("aperture_radius", Range::LENGTH)?.ok_or_else(|| {
+            object.element.error("thinlens has no aperture_radius", "give one in metres, or use perspective")
+        })?;
+        // Mitsuba focuses on the far clipping plane unless told otherwise.
+        Some(Lens { aperture_radius, focus_distance: focus_distance.unwrap_or(far_clip) })
+    } else {
+        if focus_distance.is_some() {
+            builder.note("focus_distance has no effect on a pinhole; thinlens has a depth of field");
+        }
+        None
+    };
+    Ok(Camera { to_world, tan_half_width, tan_half_height, principal_point_offset, near_clip, far_clip, lens })
 }
 
 fn check_rigid(object: &Object, to_world: &DAffine3) -> Result<(), SceneError> {

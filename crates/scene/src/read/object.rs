@@ -114,6 +114,20 @@ impl<'e> Object<'e> {
         })
     }
 
+    /// A point or vector, or the element of this name with one of `tags`.
+    pub(super) fn vector_or(
+        &mut self,
+        name: &'static str,
+        tags: &[&str],
+        range: Range,
+    ) -> Result<Option<Result<DVec3, &'e Element>>, SceneError> {
+        let is_it = |child: &&&Element| child.attribute("name") == Some(name) && tags.contains(&child.tag.name);
+        if self.unread.iter().any(|child| is_it(&child)) {
+            return Ok(self.take(name, tags)?.map(Err));
+        }
+        Ok(self.vector(name, range)?.map(Ok))
+    }
+
     /// A colour, each channel in `range`.
     pub(super) fn colour(&mut self, name: &'static str, range: Range) -> Result<Option<Spectrum>, SceneError> {
         self.value(name, &["rgb", "spectrum", "float"], |child| colour(child, range))

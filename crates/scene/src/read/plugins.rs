@@ -70,8 +70,8 @@ const EMITTERS: Plugins = Plugins {
 };
 
 const SENSORS: Plugins = Plugins {
-    built: &["perspective", "radiancemeter", "irradiancemeter", "fluxmeter", "intensitymeter"],
-    later: &["thinlens", "distant"],
+    built: &["perspective", "thinlens", "radiancemeter", "distant", "irradiancemeter", "fluxmeter", "intensitymeter"],
+    later: &[],
     foreign: &["batch", "orthographic"],
 };
 

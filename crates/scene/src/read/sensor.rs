@@ -1,11 +1,12 @@
 //! Sensors: cameras and meters, each with its film.
 
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
-use crate::{Film, Meter, Receiver, Sensor};
+use crate::{Bsdf, DistantTarget, Film, Meter, Receiver, Sensor};
 
 use super::camera::camera;
 use super::element::Element;
+use super::emitter::check_one_of;
 use super::environment::rotation;
 use super::error::SceneError;
 use super::film;
@@ -14,6 +15,7 @@ use super::number::Range;
 use super::object::Object;
 use super::plugins;
 use super::scene::Builder;
+use super::shape::shape;
 use super::transform::unit;
 
 /// Where a sensor stands in the file.
@@ -39,9 +41,13 @@ pub(super) fn sensor<'e>(
     }
     check_shutter(&mut object)?;
     let (receiver, film) = match (object.plugin, position) {
-        ("perspective", Position::Free) => {
+        ("perspective" | "thinlens", Position::Free) => {
             let film = film.unwrap_or(film::DEFAULT);
-            (Receiver::Camera(camera(&mut object, film)?), film)
+            (Receiver::Camera(camera(&mut object, film, builder)?), film)
+        }
+        ("distant", Position::Free) => {
+            let film = one_cell(&object, film)?;
+            (Receiver::Meter(distant(&mut object, builder)?), film)
         }
         ("radiancemeter", Position::Free) => (Receiver::Meter(radiancemeter(&mut object)?), one_cell(&object, film)?),
         ("irradiancemeter", Position::OnShape(shape)) => {
@@ -62,7 +68,7 @@ pub(super) fn sensor<'e>(
             return Err(element.error(format!("a {plugin} inside a shape"), "put it beside the shape"));
         }
     };
-    object.close(&["srf", "aperture_radius", "focus_distance"])?;
+    object.close(&["srf"])?;
     let id = builder.id(element, "sensor", builder.scene.sensors.len())?;
     builder.scene.sensors.push(Sensor { id, receiver, film });
     Ok(())
@@ -76,7 +82,7 @@ fn one_cell(object: &Object, film: Option<Film>) -> Result<Film, SceneError> {
     match film.unwrap_or(ONE_CELL) {
         ONE_CELL => Ok(ONE_CELL),
         Film { width, height } => {
-            let what = format!("a radiancemeter has one cell, its film {width} x {height}");
+            let what = format!("a {} has one cell, its film {width} x {height}", object.plugin);
             Err(object.element.error(what, "set width and height to 1, or remove the film"))
         }
     }
@@ -104,6 +110,33 @@ fn radiancemeter(object: &mut Object) -> Result<Meter, SceneError> {
         Some(direction) => Ok(Meter::Radiancemeter { origin, direction }),
         None => fail("direction is zero", "give a direction such as 0 0 1"),
     }
+}
+
+/// Mitsuba's `distant`: radiance that leaves the scene, averaged over a target.
+fn distant<'e>(object: &mut Object<'e>, builder: &mut Builder<'e>) -> Result<Meter, SceneError> {
+    let given = object.vector("direction", Range::ANY)?;
+    let to_world = object.transform()?;
+    check_one_of(object, given, to_world, "direction")?;
+    let along = given.or(to_world.map(|transform| transform.matrix3.z_axis)).unwrap_or(DVec3::Z);
+    let direction = unit(along)
+        .ok_or_else(|| object.element.error("direction is zero", "give the one in which it looks, such as 0 0 -1"))?;
+    let target = match object.vector_or("target", &["shape"], Range::COORDINATE)? {
+        None => DistantTarget::Whole,
+        Some(Ok(point)) => DistantTarget::Point(point),
+        Some(Err(element)) => DistantTarget::Shape(target(element, builder)?),
+    };
+    Ok(Meter::Distant { direction, target })
+}
+
+/// Adds a shape that is a target alone.
+fn target<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<usize, SceneError> {
+    if let Some(other) = element.children.iter().find(|child| ["emitter", "sensor"].contains(&child.tag.name)) {
+        return Err(other.error("a target neither shines nor measures", "put the shape itself into the scene"));
+    }
+    shape(element, builder)?;
+    let index = builder.scene.shapes.len() - 1;
+    builder.scene.shapes[index].bsdf = Bsdf::Null;
+    Ok(index)
 }
 
 /// The scene stands still, so only the default shutter is the same thing in both programs.

@@ -248,3 +248,46 @@ fn radiancemeters_look_along_z_or_a_direction() {
     let moved = "<transform name='to_world'><scale value='7'/><rotate y='1' angle='90'/><translate z='1'/></transform>";
     assert_eq!(meter(moved), (DVec3::Z, DVec3::X));
 }
+
+/// Mitsuba 3.9.1 focuses on the far clipping plane unless told otherwise, and a pinhole takes no notice of a focus.
+#[test]
+fn lenses_have_mitsubas_defaults() {
+    let lens = |inside: &str| {
+        let radius = "<float name='aperture_radius' value='0.2'/>";
+        let scene = scene(&format!("<sensor type='thinlens'>{radius}{inside}</sensor>"));
+        let Receiver::Camera(camera) = &scene.sensors[0].receiver else { panic!("no camera") };
+        camera.lens.expect("a lens")
+    };
+    for (inside, focus_distance) in [
+        ("", 10000.0),
+        ("<float name='far_clip' value='50'/>", 50.0),
+        ("<float name='far_clip' value='50'/><float name='focus_distance' value='3'/>", 3.0),
+    ] {
+        assert_eq!(lens(inside), photonlab_scene::Lens { aperture_radius: 0.2, focus_distance });
+    }
+    let pinhole = scene("<sensor type='perspective'><float name='focus_distance' value='3'/></sensor>");
+    assert!(pinhole.notes[0].starts_with("focus_distance has no effect"), "{:?}", pinhole.notes);
+}
+
+#[test]
+fn distant_meters_have_targets() {
+    use photonlab_scene::{Bsdf, DistantTarget, Meter};
+    for (inside, direction, target) in [
+        ("", DVec3::Z, DistantTarget::Whole),
+        ("<vector name='direction' value='0 -2 0'/>", DVec3::NEG_Y, DistantTarget::Whole),
+        (
+            "<transform name='to_world'><rotate x='1' angle='180'/></transform><point name='target' value='1 2 3'/>",
+            DVec3::NEG_Z,
+            DistantTarget::Point(DVec3::new(1.0, 2.0, 3.0)),
+        ),
+        ("<shape name='target' type='sphere'/>", DVec3::Z, DistantTarget::Shape(1)),
+    ] {
+        let scene = scene(&format!("<shape type='cube'/><sensor type='distant'>{inside}</sensor><shape type='cube'/>"));
+        let Receiver::Meter(Meter::Distant { direction: along, target: found }) = &scene.sensors[0].receiver else {
+            panic!("no distant meter")
+        };
+        assert!((*along - direction).length() < 1e-12);
+        assert_eq!(*found, target);
+        assert!(target != DistantTarget::Shape(1) || scene.shapes[1].bsdf == Bsdf::Null);
+    }
+}
