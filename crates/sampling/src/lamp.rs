@@ -2,9 +2,9 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Pattern, Ray, Surface, World};
+use photonlab_scene::{Pattern, Ray, World};
 
 use crate::{Environment, Stream, pattern, warp};
 
@@ -51,6 +51,15 @@ pub enum LampKind<const C: usize> {
         /// Its radius, metres.
         radius: f64,
     },
+    /// Lambertian front side of all faces of a mesh.
+    Faces {
+        /// Index into [`Scene::shapes`](photonlab_scene::Scene::shapes).
+        shape: usize,
+        /// W/(m^2 sr) or cd/m^2.
+        radiance: Colour<C>,
+        /// Square metres, of all faces.
+        area: f64,
+    },
     /// Lambertian front side of one primitive.
     Area {
         /// Index into [`World::primitives`].
@@ -95,12 +104,8 @@ impl<const C: usize> Lamp<C> {
                 let origin = *centre + *radius * (on_disc + 1.01 * towards);
                 Emission { ray: Ray::new(origin, -towards), from: None, weight }
             }
-            LampKind::Area { primitive, .. } => {
-                let position = point_on_surface(&world.primitives[*primitive as usize].surface, stream.next2());
-                let point = world.point_on(*primitive, position);
-                let direction = warp::square_to_cosine_hemisphere(stream.next2(), point.normal);
-                even(Ray::new(position, direction), Some(*primitive))
-            }
+            LampKind::Area { primitive, .. } => even_from(world, *primitive, stream),
+            LampKind::Faces { shape, .. } => even_from(world, world.primitive_by_area(*shape, stream.next()).0, stream),
         }
     }
 
@@ -128,10 +133,10 @@ impl<const C: usize> Lamp<C> {
     }
 }
 
-/// A point uniform by area.
-pub(crate) fn point_on_surface(surface: &Surface, xi: [f64; 2]) -> DVec3 {
-    match surface {
-        Surface::Parallelogram(face) => face.point(DVec2::from(xi)),
-        Surface::Ball(ball) => ball.point(xi[0], 1.0 - 2.0 * xi[1]),
-    }
+/// A ray from a primitive whose front side shines evenly.
+fn even_from<const C: usize>(world: &World, primitive: u32, stream: &mut Stream) -> Emission<C> {
+    let position = world.primitives[primitive as usize].surface.point_by_area(stream.next2());
+    let normal = world.point_on(primitive, position).normal;
+    let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
+    Emission { ray: Ray::new(position, direction), from: Some(primitive), weight: Colour::ONE }
 }
