@@ -35,13 +35,15 @@ impl<const C: usize> Lamps<C> {
             let id = || shape.id.clone();
             if let Geometry::Mesh(_) = shape.geometry {
                 let kind = LampKind::Faces { shape: index, radiance, area };
-                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
+                let medium = world.medium_beside(world.primitives_of(index).start, true, None);
+                lamps.push(Lamp { id: id(), kind, medium, flux: radiance * (PI * area) });
                 continue;
             }
             for primitive in world.primitives_of(index) {
                 let area = world.primitives[primitive as usize].surface.area();
                 let kind = LampKind::Area { primitive, radiance, area };
-                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
+                let medium = world.medium_beside(world.primitives_of(index).start, true, None);
+                lamps.push(Lamp { id: id(), kind, medium, flux: radiance * (PI * area) });
             }
         }
         let mut of_primitive = vec![None; world.primitives.len()];
@@ -118,10 +120,10 @@ impl<const C: usize> Lamps<C> {
 
 fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palette<C>) -> Lamp<C> {
     match emitter {
-        Emitter::Point { id, position, intensity, pattern } => {
+        Emitter::Point { id, position, intensity, pattern, medium } => {
             let intensity = palette.emission(intensity);
             let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
-            Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
+            Lamp { id: id.clone(), kind, medium: *medium, flux: intensity * pattern::integral(pattern) }
         }
         Emitter::Environment { id, light } => {
             let environment = Arc::new(Environment::new(light, palette));
@@ -131,6 +133,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
             Lamp {
                 id: id.clone(),
                 kind: LampKind::Environment { environment, centre: 0.5 * (low + high), radius },
+                medium: None,
                 flux,
             }
         }
@@ -139,7 +142,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
             let (corner, sides) = covering_window(world.bounds(), *direction);
             let area = sides[0].cross(sides[1]).length();
             let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };
-            Lamp { id: id.clone(), kind, flux: irradiance * area }
+            Lamp { id: id.clone(), kind, medium: None, flux: irradiance * area }
         }
     }
 }
