@@ -63,7 +63,12 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
     let schedule = Schedule::new(
         &wanted,
         1,
-        &Demands { gather_rays: 1, fewest_photons: optics.any().lamps.lamps.len() as u64, most_samples: 1 },
+        &Demands {
+            gather_rays: 1,
+            fewest_photons: optics.any().lamps.lamps.len() as u64,
+            most_samples: 1,
+            draws_wavelengths: false,
+        },
     );
     let passes = schedule.ends.passes.unwrap_or(1);
     let traced = (0..passes)

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 /// Passes unless asked otherwise: enough for an error bar whose own error is small (Student t with 15 degrees).
 const PASSES: u64 = 16;
+/// Passes are so many times more and shorter where each draws wavelengths of its own.
+const FINER: u64 = 4;
 /// Photons per pass unless asked otherwise.
 const PHOTONS_PER_PASS: u64 = 1 << 16;
 /// Photons in a pass at most, which bounds memory; more photons mean more passes.
@@ -37,6 +39,8 @@ pub struct Demands {
     pub fewest_photons: u64,
     /// Points per cell and pass beyond which a reading gains nothing.
     pub most_samples: u64,
+    /// True if every pass draws wavelengths of its own, of which many passes see more.
+    pub draws_wavelengths: bool,
 }
 
 /// When a run ends.
@@ -87,7 +91,8 @@ impl Schedule {
         let photons = wanted.photons.filter(|_| uses_photons);
         let counted = photons.is_some() || wanted.samples.is_some() || wanted.passes.is_some();
         let open = wanted.target_error.is_some() || wanted.time_limit.is_some();
-        let rays_per_cell = RAYS_PER_PASS / (cells.max(1) as u64 * u64::from(demands.gather_rays));
+        let finer = if demands.draws_wavelengths { FINER } else { 1 };
+        let rays_per_cell = RAYS_PER_PASS / finer / (cells.max(1) as u64 * u64::from(demands.gather_rays));
         let samples_per_cell = rays_per_cell.clamp(FEWEST_SAMPLES.min(demands.most_samples), demands.most_samples);
         let passes = (counted || !open).then(|| {
             let asked = wanted.passes.unwrap_or_else(|| {
@@ -95,7 +100,7 @@ impl Schedule {
                 let largest = if open { PHOTONS_PER_PASS } else { LARGEST_PASS };
                 let for_photons = photons.map_or(0, |n| n.div_ceil(largest));
                 let for_samples = wanted.samples.filter(|_| open).map_or(0, |n| n.div_ceil(samples_per_cell));
-                PASSES
+                (PASSES * finer)
                     .max(for_photons)
                     .max(for_samples)
                     .min(photons.map_or(u64::MAX, |n| n / demands.fewest_photons.max(1)))
@@ -109,7 +114,7 @@ impl Schedule {
         Self {
             ends: Ends { passes, target_error: wanted.target_error, time_limit: wanted.time_limit },
             photons: if uses_photons {
-                share(photons, PHOTONS_PER_PASS.max(demands.fewest_photons))
+                share(photons, (PHOTONS_PER_PASS / finer).max(demands.fewest_photons))
             } else {
                 Share::Each(0)
             },
@@ -151,7 +156,8 @@ impl Schedule {
 mod tests {
     use super::*;
 
-    const DEMANDS: Demands = Demands { gather_rays: 1, fewest_photons: 2, most_samples: 1 << 13 };
+    const DEMANDS: Demands =
+        Demands { gather_rays: 1, fewest_photons: 2, most_samples: 1 << 13, draws_wavelengths: false };
 
     #[test]
     fn totals_are_met_exactly() {

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Channels, Colour};
 use photonlab_sampling::{EmissionPlan, NothingCounts, Optics, PassOptics, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Job, TraceError, count};
@@ -105,6 +105,7 @@ impl<const C: usize> Session<'_, C> {
             },
             // A density estimate at one point is the same however often it is made in one pass.
             most_samples: if from_map { 1 << 8 } else { 1 << 13 },
+            draws_wavelengths: self.needs.channels == Channels::Spectral,
         }
     }
 

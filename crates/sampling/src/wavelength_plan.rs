@@ -47,9 +47,14 @@ impl WavelengthPlan {
         (total > 0.0).then_some(Self { ends, before, response })
     }
 
-    /// The palette of a pass from one number in [0, 1): a wavelength from each of `C` like shares of the probability.
+    /// The palette of a pass from one number in [0, 1): in each of `C` / 2 like shares of the probability two wavelengths
+    /// that mirror each other (Hickernell's baker's transform of a shifted lattice), so that a spectrum which is straight
+    /// within a share is summed without error.
     pub fn draw<const C: usize>(&self, xi: f64) -> Palette<C> {
-        let drawn: [(f64, f64); C] = std::array::from_fn(|c| self.place((c as f64 + xi) / C as f64));
+        let drawn: [(f64, f64); C] = std::array::from_fn(|c| {
+            let shifted = (c as f64 + xi) / C as f64;
+            self.place(1.0 - (2.0 * shifted - 1.0).abs())
+        });
         Palette::Wavelengths(Wavelengths::new(drawn.map(|d| d.0), drawn.map(|d| d.1), self.response))
     }
 
