@@ -1,5 +1,6 @@
 //! From a point or an eye along a ray, through specular surfaces, to where light is read.
 
+use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
     Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, balance_pdf, goes_through, lamp_pdf_solid_angle,
@@ -70,6 +71,8 @@ struct Walk<'w, const C: usize> {
     optics: &'w Optics<C>,
     ray: Ray,
     from: Option<u32>,
+    /// Where it was bent last or started: from there lamps would have been drawn. Masks that it passes change nothing.
+    seen_from: DVec3,
     weight: Colour<C>,
     /// Density per solid angle with which the last rough surface drew the ray; `None` if it sought no lamp.
     rough_pdf: Option<f64>,
@@ -98,6 +101,7 @@ pub fn follow<const C: usize>(
         optics,
         ray: start.ray,
         from: start.from,
+        seen_from: start.ray.origin,
         weight: Colour::ONE,
         rough_pdf: None,
         bent: false,
@@ -165,7 +169,7 @@ impl<const C: usize> Walk<'_, C> {
         if radiance.is_zero() {
             return;
         }
-        let (primitive, from, to) = (hit.point.primitive, self.ray.origin, hit.point.position);
+        let (primitive, from, to) = (hit.point.primitive, self.seen_from, hit.point.position);
         if self.bent {
             let drawn =
                 self.rough_pdf.map(|pdf| (pdf, balance_pdf(self.world, &self.optics.lamps, primitive, from, to)));
@@ -178,7 +182,8 @@ impl<const C: usize> Walk<'_, C> {
 
     /// Counts what comes from infinity.
     fn escape(&mut self) {
-        let Some((radiance, drawn)) = self.optics.lamps.from_infinity(self.ray.direction) else { return };
+        let seen = Ray::new(self.seen_from, self.ray.direction);
+        let Some((radiance, drawn)) = self.optics.lamps.from_infinity(self.world, &seen) else { return };
         if self.bent {
             self.behind_specular(radiance, self.rough_pdf.map(|pdf| (pdf, drawn)));
         } else {
@@ -207,6 +212,7 @@ impl<const C: usize> Walk<'_, C> {
     /// Goes on along another ray.
     fn turn(&mut self, hit: &Hit, ray: Ray, share: Colour<C>, rough_pdf: Option<f64>) {
         self.weight = self.weight * share;
+        self.seen_from = ray.origin;
         self.ray = ray;
         self.from = Some(hit.point.primitive);
         self.rough_pdf = rough_pdf;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::luminaire::IntensityTable;
-use crate::{Bsdf, Scene};
+use crate::{Bsdf, Emitter, Scene};
 
 use super::bsdf::bsdf;
 use super::element::Element;
@@ -28,6 +28,8 @@ pub(super) struct Builder<'e> {
     pub(super) integrator: Option<&'e Element>,
     /// The luminaire files that were read so far: a room hangs one many times.
     pub(super) luminaires: HashMap<PathBuf, Arc<IntensityTable>>,
+    /// The portals that were read so far and the shapes that they stand in.
+    pub(super) portals: Vec<(&'e Element, usize)>,
 }
 
 /// Makes the scene that the tree describes.
@@ -35,11 +37,19 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     let Loaded { root, ids, notes } = &loaded;
     let scene =
         Scene { shapes: Vec::new(), emitters: Vec::new(), sensors: Vec::new(), max_depth: None, notes: notes.clone() };
-    let mut builder = Builder { scene, bsdfs: HashMap::new(), ids, integrator: None, luminaires: HashMap::new() };
+    let mut builder = Builder {
+        scene,
+        bsdfs: HashMap::new(),
+        ids,
+        integrator: None,
+        luminaires: HashMap::new(),
+        portals: Vec::new(),
+    };
     for element in &root.children {
         builder.part(element)?;
     }
     check_indices(root, &builder.scene)?;
+    builder.aim()?;
     keep_lumens(&mut builder.scene);
     Ok(builder.scene)
 }
@@ -76,6 +86,20 @@ impl<'e> Builder<'e> {
                 Err(element.error(what, "a scene takes bsdf, default, emitter, include, integrator, sensor, shape"))
             }
         }
+    }
+
+    /// Gives the environment its portals.
+    fn aim(&mut self) -> Result<(), SceneError> {
+        let Some(&(first, _)) = self.portals.first() else { return Ok(()) };
+        let environment = self.scene.emitters.iter_mut().find_map(|emitter| match emitter {
+            Emitter::Environment { portals, .. } => Some(portals),
+            _ => None,
+        });
+        let Some(portals) = environment else {
+            return Err(first.error("a portal without an environment", "add one of constant, envmap and sky"));
+        };
+        portals.extend(self.portals.iter().map(|(_, shape)| *shape));
+        Ok(())
     }
 
     /// The element's id, or `STEM-NUMBER` if it has none and no other element has that.
