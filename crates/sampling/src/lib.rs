@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod direct;
+mod enclosure;
 mod environment;
 mod environment_table;
 mod fresnel;
@@ -28,6 +29,7 @@ mod wavelength_plan;
 mod window;
 
 pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};
+pub use enclosure::leak;
 pub use environment::Environment;
 pub use fresnel::{diffuse_fresnel, fresnel_conductor, fresnel_dielectric};
 pub use lamp::{Emission, Lamp, LampKind};

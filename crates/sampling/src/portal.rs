@@ -17,10 +17,7 @@ use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Ray, Surface, World};
 
-use crate::{
-    Environment, Stream,
-    warp::{self, Frame},
-};
+use crate::{Environment, Stream, warp::Frame};
 
 /// Parts of the hemisphere, even in the squared sine of the angle to the normal and in the azimuth, so that all have the same
 /// projected solid angle.
@@ -158,7 +155,7 @@ mod tests {
     use photonlab_scene::{EnvironmentLight, Sky, SkyLaw, SkyMap};
 
     use super::*;
-    use crate::Purpose;
+    use crate::{Purpose, warp};
 
     fn lights() -> [EnvironmentLight; 3] {
         let law = SkyLaw::General { kind: 12, sun: DVec3::new(0.6, 0.0, 0.8) };
