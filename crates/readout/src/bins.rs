@@ -71,7 +71,7 @@ fn place(film: Film, u: f64, v: f64) -> usize {
 fn measure(world: &World, cell: &Cell) -> f64 {
     match &cell.target {
         Target::Patch { flux: true, .. } => 1.0,
-        Target::Patch { shape, film, flux: false } => world.cell_area(*shape, cell.cell[1], [film.width, film.height]),
+        Target::Patch { shape, film, flux: false } => world.cell_area(*shape, cell.cell, [film.width, film.height]),
         Target::Leaving { film, .. } => {
             let gamma = |row: u32| PI * f64::from(row) / f64::from(film.height);
             TAU / f64::from(film.width) * (gamma(cell.cell[1]).cos() - gamma(cell.cell[1] + 1).cos())

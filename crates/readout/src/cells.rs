@@ -74,9 +74,7 @@ impl Cell {
     /// What irradiance is multiplied by to give the reading: the area in square metres of a cell whose flux is read.
     pub(crate) fn area_read(&self, world: &World) -> f64 {
         match self.target {
-            Target::Patch { shape, film, flux: true } => {
-                world.cell_area(shape, self.cell[1], [film.width, film.height])
-            }
+            Target::Patch { shape, film, flux: true } => world.cell_area(shape, self.cell, [film.width, film.height]),
             _ => 1.0,
         }
     }

@@ -24,17 +24,18 @@ const BLOCK: u64 = 1024;
 pub(crate) fn share<const C: usize>(world: &World, lamps: &Lamps<C>, cell: &Cell) -> f64 {
     let Target::Patch { shape, film, .. } = &cell.target else { return 0.0 };
     let size = [film.width, film.height];
-    if is_near_a_lamp(world, lamps, *shape, size) { share_of(world, *shape, cell.cell[1], size) } else { 0.0 }
+    if is_near_a_lamp(world, lamps, *shape, size) { share_of(world, *shape, cell.cell, size) } else { 0.0 }
 }
 
-fn share_of(world: &World, shape: usize, row: u32, size: [u32; 2]) -> f64 {
-    rays_per_point(size) * world.cell_area(shape, row, size) / (4.0 * PI)
+fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 {
+    rays_per_point(size) * world.cell_area(shape, cell, size) / (4.0 * PI)
 }
 
 /// True if a point lamp is so near that rays from it could carry more than a trifle of what a cell of the shape gets by its
 /// own points. Farther away the points alone are good, and the rare rays that met a cell would only add rare jumps.
 fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize, size: [u32; 2]) -> bool {
-    let share = (0..size[1]).map(|row| share_of(world, shape, row, size)).fold(0.0, f64::max);
+    let cells = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| [column, row]));
+    let share = cells.map(|cell| share_of(world, shape, cell, size)).fold(0.0, f64::max);
     lamps.lamps.iter().any(|lamp| match &lamp.kind {
         LampKind::Point { position, .. } => {
             let near = world.distance_to_shape(shape, *position);
@@ -99,7 +100,7 @@ fn arrival<const C: usize>(
     let uv = world.uv(&hit.point);
     let place = |x: f64, count: u32| ((x * f64::from(count)) as u32).min(count - 1);
     let [column, row] = [place(uv.x, size[0]), place(uv.y, size[1])];
-    let area = world.cell_area(shape, row, size);
+    let area = world.cell_area(shape, [column, row], size);
     let cosine = -emission.ray.direction.dot(hit.point.normal);
     let towards = lamp.point_emission(emission.ray.direction);
     let odds = rays_per_point(size) * area * cosine * towards / (4.0 * PI * hit.distance * hit.distance);

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Ball, Ray, Surface, SurfacePoint, World};
+use photonlab_scene::{Ball, Primitive, Ray, Surface, SurfacePoint, World};
 
-use crate::{LampKind, Lamps, lamp::point_on_surface, pattern, spherical_rectangle::SphericalRectangle, warp};
+use crate::{LampKind, Lamps, pattern, spherical_rectangle::SphericalRectangle, warp};
 
 /// One point of a lamp, drawn; whether it is seen is not known yet.
 #[derive(Clone, Copy, Debug)]
@@ -74,20 +74,11 @@ impl<const C: usize> LightDraw<C> {
                 Self::from_infinity(world, lamps, Ray::new(from, (position - from).normalize()))
             }
             LampKind::Area { primitive, radiance, .. } => {
-                let draw = AreaDraw::new(world, *primitive, from);
-                let position = draw.position([xi[1], xi[2]]);
-                let offset = position - from;
-                let distance = offset.length();
-                let pdf = chosen * draw.pdf_solid_angle(position);
-                (pdf > 0.0).then(|| Self {
-                    direction: offset / distance,
-                    distance,
-                    on: Some(*primitive),
-                    radiance_over_pdf: *radiance * (1.0 / pdf),
-                    pdf_solid_angle: pdf,
-                    alone: is_drawn_alone(world, *primitive),
-                    point_emission: 0.0,
-                })
+                Self::on_surface(world, *primitive, *radiance, chosen, from, [xi[1], xi[2]])
+            }
+            LampKind::Faces { shape, radiance, .. } => {
+                let (primitive, rest) = world.primitive_by_area(*shape, xi[1]);
+                Self::on_surface(world, primitive, *radiance, chosen, from, [rest, xi[2]])
             }
         }
     }
@@ -102,6 +93,31 @@ impl<const C: usize> LightDraw<C> {
             radiance_over_pdf: radiance * (1.0 / pdf),
             pdf_solid_angle: pdf,
             alone: false,
+            point_emission: 0.0,
+        })
+    }
+
+    /// Draws a point of an emitting primitive whose lamp was chosen with a probability.
+    fn on_surface(
+        world: &World,
+        primitive: u32,
+        radiance: Colour<C>,
+        chosen: f64,
+        from: DVec3,
+        xi: [f64; 2],
+    ) -> Option<Self> {
+        let draw = AreaDraw::new(world, primitive, from);
+        let position = draw.position(xi);
+        let offset = position - from;
+        let distance = offset.length();
+        let pdf = chosen * draw.pdf_solid_angle(position);
+        (pdf > 0.0).then(|| Self {
+            direction: offset / distance,
+            distance,
+            on: Some(primitive),
+            radiance_over_pdf: radiance * (1.0 / pdf),
+            pdf_solid_angle: pdf,
+            alone: is_drawn_alone(world, primitive),
             point_emission: 0.0,
         })
     }
@@ -194,6 +210,7 @@ pub(crate) fn is_drawn_alone(world: &World, primitive: u32) -> bool {
     match &world.primitives[primitive as usize].surface {
         Surface::Parallelogram(face) => face.is_rectangle(),
         Surface::Ball(ball) => !ball.inwards,
+        Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) => false,
     }
 }
 
@@ -203,6 +220,8 @@ struct AreaDraw<'w> {
     world: &'w World,
     primitive: u32,
     from: DVec3,
+    /// Square metres over which points are drawn evenly, where they are: of all faces of a mesh.
+    area: f64,
     way: Way,
 }
 
@@ -213,19 +232,24 @@ enum Way {
     Inside,
     /// A rectangle: evenly over its solid angle.
     Rectangle(SphericalRectangle),
-    /// Evenly by area: faces that are no rectangles, and rectangles under next to no solid angle.
+    /// Evenly by area: all other surfaces, and rectangles under next to no solid angle.
     Area,
 }
 
 impl<'w> AreaDraw<'w> {
     fn new(world: &'w World, primitive: u32, from: DVec3) -> Self {
-        let surface = &world.primitives[primitive as usize].surface;
+        let Primitive { surface, shape } = &world.primitives[primitive as usize];
+        let area = match surface {
+            Surface::Triangle(_) => world.area_of(*shape as usize),
+            surface => surface.area(),
+        };
         let way = match surface {
             Surface::Ball(ball) if ball.inwards => Way::Inside,
             Surface::Ball(ball) => cone_of(ball, from).map_or(Way::Area, Way::Cone),
             Surface::Parallelogram(face) => SphericalRectangle::new(face, from).map_or(Way::Area, Way::Rectangle),
+            Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) => Way::Area,
         };
-        Self { surface, world, primitive, from, way }
+        Self { surface, world, primitive, from, area, way }
     }
 
     fn position(&self, xi: [f64; 2]) -> DVec3 {
@@ -239,7 +263,7 @@ impl<'w> AreaDraw<'w> {
                 let distance = near.unwrap_or_else(|| (ball.centre - self.from).dot(ray.direction));
                 ball.project(ray.at(distance))
             }
-            (_, surface) => point_on_surface(surface, xi),
+            (_, surface) => surface.point_by_area(xi),
         }
     }
 
@@ -253,7 +277,7 @@ impl<'w> AreaDraw<'w> {
         match &self.way {
             Way::Cone(cone) => warp::uniform_cone_pdf_solid_angle(*cone),
             Way::Rectangle(rectangle) => 1.0 / rectangle.solid_angle,
-            Way::Inside | Way::Area => offset.length_squared() * offset.length() / (cosine * self.surface.area()),
+            Way::Inside | Way::Area => offset.length_squared() * offset.length() / (cosine * self.area),
         }
     }
 }

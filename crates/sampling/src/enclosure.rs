@@ -6,7 +6,7 @@
 
 use photonlab_scene::{Bsdf, Emitter, Ray, World};
 
-use crate::{Purpose, Stream, lamp::point_on_surface, portal::way_out, warp};
+use crate::{Purpose, Stream, portal::way_out, warp};
 
 /// Walks from each portal.
 const WALKS: u64 = 8192;
@@ -30,7 +30,7 @@ pub fn leak(world: &World) -> f64 {
 }
 
 fn walk_leaks(world: &World, portals: &[u32], start: u32, stream: &mut Stream) -> bool {
-    let position = point_on_surface(&world.primitives[start as usize].surface, stream.next2());
+    let position = world.primitives[start as usize].surface.point_by_area(stream.next2());
     let point = world.point_on(start, position);
     let mut ray = Ray::new(position, warp::square_to_cosine_hemisphere(stream.next2(), point.normal));
     let mut from = Some(start);

@@ -2,9 +2,9 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Pattern, Ray, Surface, World};
+use photonlab_scene::{Pattern, Ray, World};
 
 use crate::{Environment, Portal, Stream, pattern, portal::crosses, warp};
 
@@ -62,6 +62,15 @@ pub enum LampKind<const C: usize> {
         /// The primitives of the portals before it in the file.
         earlier: Arc<[u32]>,
     },
+    /// Lambertian front side of all faces of a mesh.
+    Faces {
+        /// Index into [`Scene::shapes`](photonlab_scene::Scene::shapes).
+        shape: usize,
+        /// W/(m^2 sr) or cd/m^2.
+        radiance: Colour<C>,
+        /// Square metres, of all faces.
+        area: f64,
+    },
     /// Lambertian front side of one primitive.
     Area {
         /// Index into [`World::primitives`].
@@ -112,7 +121,7 @@ impl<const C: usize> Lamp<C> {
             }
             LampKind::Portal { primitive, portal, earlier } => {
                 let from = Some(*primitive);
-                let position = point_on_surface(&world.primitives[*primitive as usize].surface, stream.next2());
+                let position = world.primitives[*primitive as usize].surface.point_by_area(stream.next2());
                 let (direction, weight) = portal.emit(stream);
                 let ray = Ray::new(position, direction);
                 let hidden = || first_hit(world, &Ray::new(position, -direction), from) < f64::INFINITY;
@@ -120,12 +129,8 @@ impl<const C: usize> Lamp<C> {
                     weight.is_zero() || hidden() || crosses(world, earlier, &ray, || first_hit(world, &ray, from));
                 Emission { ray, from, weight: if dark { Colour::ZERO } else { weight } }
             }
-            LampKind::Area { primitive, .. } => {
-                let position = point_on_surface(&world.primitives[*primitive as usize].surface, stream.next2());
-                let point = world.point_on(*primitive, position);
-                let direction = warp::square_to_cosine_hemisphere(stream.next2(), point.normal);
-                even(Ray::new(position, direction), Some(*primitive))
-            }
+            LampKind::Area { primitive, .. } => even_from(world, *primitive, stream),
+            LampKind::Faces { shape, .. } => even_from(world, world.primitive_by_area(*shape, stream.next()).0, stream),
         }
     }
 
@@ -167,10 +172,10 @@ fn first_hit(world: &World, ray: &Ray, from: Option<u32>) -> f64 {
     world.cast(ray, from, f64::INFINITY).map_or(f64::INFINITY, |hit| hit.distance)
 }
 
-/// A point uniform by area.
-pub(crate) fn point_on_surface(surface: &Surface, xi: [f64; 2]) -> DVec3 {
-    match surface {
-        Surface::Parallelogram(face) => face.point(DVec2::from(xi)),
-        Surface::Ball(ball) => ball.point(xi[0], 1.0 - 2.0 * xi[1]),
-    }
+/// A ray from a primitive whose front side shines evenly.
+fn even_from<const C: usize>(world: &World, primitive: u32, stream: &mut Stream) -> Emission<C> {
+    let position = world.primitives[primitive as usize].surface.point_by_area(stream.next2());
+    let normal = world.point_on(primitive, position).normal;
+    let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
+    Emission { ray: Ray::new(position, direction), from: Some(primitive), weight: Colour::ONE }
 }

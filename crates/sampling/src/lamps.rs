@@ -3,11 +3,11 @@
 use std::{f64::consts::PI, sync::Arc};
 
 use photonlab_photometry::{Colour, Palette};
-use photonlab_scene::{Emitter, Ray, World};
+use photonlab_scene::{Emitter, Geometry, Ray, World};
 
 use crate::{
-    Environment, Lamp, LampKind, Portal, direct::area_pdf_solid_angle, lamp::point_on_surface, pattern,
-    portal::way_out, window::covering_window,
+    Environment, Lamp, LampKind, Portal, direct::area_pdf_solid_angle, pattern, portal::way_out,
+    window::covering_window,
 };
 
 /// All lamps of a scene, one per emitting primitive, with the probability of choosing each for direct light.
@@ -17,6 +17,8 @@ pub struct Lamps<const C: usize> {
     pub lamps: Vec<Lamp<C>>,
     /// Probability of each when one is chosen.
     pub probability: Vec<f64>,
+    /// Sum of the probabilities before each.
+    before: Vec<f64>,
     /// The lamp of each primitive, if it emits.
     of_primitive: Vec<Option<u32>>,
     /// The lamp that is the environment, if there is one.
@@ -38,16 +40,27 @@ impl<const C: usize> Lamps<C> {
         for (index, shape) in world.scene.shapes.iter().enumerate() {
             let Some(emission) = shape.radiance.as_ref().filter(|emission| !emission.is_black()) else { continue };
             let radiance = palette.emission(emission);
+            let area = world.area_of(index);
+            let id = || shape.id.clone();
+            if let Geometry::Mesh(_) = shape.geometry {
+                let kind = LampKind::Faces { shape: index, radiance, area };
+                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
+                continue;
+            }
             for primitive in world.primitives_of(index) {
                 let area = world.primitives[primitive as usize].surface.area();
                 let kind = LampKind::Area { primitive, radiance, area };
-                lamps.push(Lamp { id: shape.id.clone(), kind, flux: radiance * (PI * area) });
+                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
             }
         }
         let mut of_primitive = vec![None; world.primitives.len()];
         for (index, lamp) in lamps.iter().enumerate() {
-            if let LampKind::Area { primitive, .. } = lamp.kind {
-                of_primitive[primitive as usize] = Some(index as u32);
+            match lamp.kind {
+                LampKind::Area { primitive, .. } => of_primitive[primitive as usize] = Some(index as u32),
+                LampKind::Faces { shape, .. } => {
+                    world.primitives_of(shape).for_each(|p| of_primitive[p as usize] = Some(index as u32));
+                }
+                _ => {}
             }
         }
         let environment = lamps.iter().position(|lamp| matches!(lamp.kind, LampKind::Environment { .. }));
@@ -61,8 +74,10 @@ impl<const C: usize> Lamps<C> {
         let even = 1.0 / lamps.len() as f64;
         // In a pass whose wavelengths no lamp emits, all are alike.
         let share = |flux: f64| if total > 0.0 { flux / total } else { even };
-        let probability = lamps.iter().map(|lamp| 0.5 * share(lamp.importance()) + 0.5 * even).collect();
-        Self { lamps, probability, of_primitive, environment, portals }
+        let probability: Vec<f64> = lamps.iter().map(|lamp| 0.5 * share(lamp.importance()) + 0.5 * even).collect();
+        let sum = |sum: &mut f64, p: &f64| Some(std::mem::replace(sum, *sum + p));
+        let before = probability.iter().scan(0.0, sum).collect();
+        Self { lamps, probability, before, of_primitive, environment, portals }
     }
 
     /// The lamp of a primitive, if that emits.
@@ -74,7 +89,7 @@ impl<const C: usize> Lamps<C> {
     pub fn emitted(&self, primitive: u32, front: bool) -> Colour<C> {
         match self.of_primitive(primitive) {
             Some(lamp) if front => match self.lamps[lamp as usize].kind {
-                LampKind::Area { radiance, .. } => radiance,
+                LampKind::Area { radiance, .. } | LampKind::Faces { radiance, .. } => radiance,
                 _ => Colour::ZERO,
             },
             _ => Colour::ZERO,
@@ -101,14 +116,7 @@ impl<const C: usize> Lamps<C> {
 
     /// Chooses a lamp; its probability is in [`Lamps::probability`].
     pub fn choose(&self, xi: f64) -> usize {
-        let mut rest = xi;
-        for (index, p) in self.probability.iter().enumerate() {
-            rest -= p;
-            if rest < 0.0 {
-                return index;
-            }
-        }
-        self.lamps.len() - 1
+        self.before.partition_point(|&sum| sum <= xi).clamp(1, self.lamps.len()) - 1
     }
 
     /// True if direct light is found by drawing lamps alone, with no help from rays that meet one by chance: lamps without
@@ -116,7 +124,7 @@ impl<const C: usize> Lamps<C> {
     pub fn are_sampled_alone(&self, world: &World) -> bool {
         self.lamps.iter().all(|lamp| match lamp.kind {
             LampKind::Point { .. } | LampKind::Directional { .. } => true,
-            LampKind::Environment { .. } | LampKind::Portal { .. } => false,
+            LampKind::Environment { .. } | LampKind::Portal { .. } | LampKind::Faces { .. } => false,
             LampKind::Area { primitive, .. } => crate::direct::is_drawn_alone(world, primitive),
         })
     }
@@ -165,7 +173,7 @@ fn through_portals<const C: usize>(
 ) -> Vec<Lamp<C>> {
     let lamp = |(place, &primitive): (usize, &u32)| {
         let surface = &world.primitives[primitive as usize].surface;
-        let normal = world.point_on(primitive, point_on_surface(surface, [0.5; 2])).normal;
+        let normal = world.point_on(primitive, surface.point_by_area([0.5; 2])).normal;
         let portal = Arc::new(Portal::new(environment, normal));
         let flux = portal.irradiance * surface.area();
         let kind = LampKind::Portal { primitive, portal, earlier: primitives[..place].into() };

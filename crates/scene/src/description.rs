@@ -1,9 +1,11 @@
 //! What a scene file says, in world units, checked but not yet prepared for ray casting.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
 use photonlab_photometry::{Channels, Spectrum, UnitSystem, VISIBLE};
 
-use crate::{Bsdf, Emitter, EnvironmentLight, Sensor};
+use crate::{Bsdf, Emitter, EnvironmentLight, Frame, Mesh, Sensor};
 
 /// A whole scene: the promise of the door "file -> scene" is that nothing of the file was ignored in silence.
 #[derive(Clone, Debug)]
@@ -58,6 +60,22 @@ pub enum Geometry {
         /// Orthonormal: a rotation, or a rotation and a mirror (determinant -1) where the file mirrors the sphere.
         to_world: DMat3,
     },
+    /// The image of the unit disk in the plane z = 0, normal +z (Mitsuba `disk`).
+    Disk {
+        /// From the unit disk to the world, in metres; never singular.
+        to_world: DAffine3,
+    },
+    /// The wall of a circular cylinder without its ends, normals outwards.
+    Cylinder {
+        /// The middle of one end, and the axis as local +z.
+        frame: Frame,
+        /// Metres, positive.
+        radius: f64,
+        /// Metres, positive.
+        length: f64,
+    },
+    /// Triangles.
+    Mesh(Arc<Mesh>),
 }
 
 impl Scene {

@@ -102,7 +102,7 @@ fn indirect_reason(scene: &Scene) -> Option<String> {
         (0..scene.shapes.len()).filter(|&index| scene.shapes[index].bsdf.is_diffuse()).collect();
     let &first = reflecting.first()?;
     // One flat face cannot light itself. If nothing else reflects or is metered, its light is never seen again.
-    let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. });
+    let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. } | Geometry::Disk { .. });
     let metered_elsewhere = scene.sensors.iter().any(|sensor| match &sensor.receiver {
         Receiver::Meter(meter) => meter.shape().is_some_and(|shape| shape != first),
         Receiver::Camera(_) => false,

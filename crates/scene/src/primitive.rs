@@ -1,11 +1,15 @@
 //! The surfaces that rays meet, and where they meet them.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::{
     ball::Ball,
     description::{Geometry, Shape},
+    disk::Disk,
     parallelogram::Parallelogram,
+    ray::Ray,
+    triangle::Triangle,
+    tube::Tube,
 };
 
 /// The kinds of primitive that a ray can meet.
@@ -15,6 +19,12 @@ pub enum Surface {
     Parallelogram(Parallelogram),
     /// A whole sphere.
     Ball(Ball),
+    /// A flat disk.
+    Disk(Disk),
+    /// A cylinder's wall.
+    Tube(Tube),
+    /// A face of a mesh.
+    Triangle(Triangle),
 }
 
 /// One surface that a ray can meet and the shape it belongs to.
@@ -61,6 +71,9 @@ impl Surface {
         match self {
             Surface::Parallelogram(face) => face.area(),
             Surface::Ball(ball) => ball.area(),
+            Surface::Disk(disk) => disk.area(),
+            Surface::Tube(tube) => tube.area(),
+            Surface::Triangle(face) => face.area(),
         }
     }
 
@@ -68,6 +81,9 @@ impl Surface {
         match self {
             Surface::Parallelogram(face) => face.bounds(),
             Surface::Ball(ball) => ball.bounds(),
+            Surface::Disk(disk) => disk.bounds(),
+            Surface::Tube(tube) => tube.bounds(),
+            Surface::Triangle(face) => face.bounds(),
         }
     }
 
@@ -76,6 +92,56 @@ impl Surface {
         match self {
             Surface::Parallelogram(face) => face.distance(position),
             Surface::Ball(ball) => ball.distance(position),
+            Surface::Disk(disk) => disk.distance(position),
+            Surface::Tube(tube) => tube.distance(position),
+            Surface::Triangle(face) => face.distance(position),
+        }
+    }
+
+    /// Distance along a ray beyond `t_min` to where it meets the surface. A ray that starts here never meets a flat surface
+    /// again, whatever the scale.
+    pub(crate) fn intersect(&self, ray: &Ray, t_min: f64, starts_here: bool) -> Option<f64> {
+        match self {
+            Surface::Ball(ball) => ball.intersect(ray, t_min, starts_here),
+            Surface::Tube(tube) => tube.intersect(ray, t_min, starts_here),
+            Surface::Parallelogram(_) | Surface::Disk(_) | Surface::Triangle(_) if starts_here => None,
+            Surface::Parallelogram(face) => face.intersect(ray, t_min).map(|(t, _)| t),
+            Surface::Disk(disk) => disk.intersect(ray, t_min),
+            Surface::Triangle(face) => face.intersect(ray, t_min),
+        }
+    }
+
+    /// Unit normal of the front side at a point of the surface.
+    pub fn normal(&self, position: DVec3) -> DVec3 {
+        match self {
+            Surface::Parallelogram(face) => face.normal,
+            Surface::Disk(disk) => disk.around.normal,
+            Surface::Triangle(face) => face.normal,
+            Surface::Ball(ball) => ball.normal(position),
+            Surface::Tube(tube) => tube.normal(position),
+        }
+    }
+
+    /// The point of the surface that a ray landed on, without the error of the ray's length.
+    pub(crate) fn project(&self, landed: DVec3) -> DVec3 {
+        let on_plane = |on: DVec3, normal: DVec3| landed - normal * normal.dot(landed - on);
+        match self {
+            Surface::Parallelogram(face) => on_plane(face.centre, face.normal),
+            Surface::Disk(disk) => on_plane(disk.around.centre, disk.around.normal),
+            Surface::Triangle(face) => on_plane(face.corners[0], face.normal),
+            Surface::Ball(ball) => ball.project(landed),
+            Surface::Tube(tube) => tube.project(landed),
+        }
+    }
+
+    /// A point even by area, from two numbers in [0, 1).
+    pub fn point_by_area(&self, xi: [f64; 2]) -> DVec3 {
+        match self {
+            Surface::Parallelogram(face) => face.point(DVec2::from(xi)),
+            Surface::Disk(disk) => disk.point(DVec2::new(disk.u_of_share(xi[0]), xi[1])),
+            Surface::Tube(tube) => tube.point(DVec2::from(xi)),
+            Surface::Triangle(face) => face.point(xi),
+            Surface::Ball(ball) => ball.point(xi[0], 1.0 - 2.0 * xi[1]),
         }
     }
 }
@@ -104,5 +170,14 @@ pub(crate) fn surfaces(shape: &Shape) -> Vec<Surface> {
         Geometry::Sphere { centre, radius, to_world } => {
             vec![Surface::Ball(Ball { centre: *centre, radius: *radius, axes: *to_world, inwards: shape.flip_normals })]
         }
+        Geometry::Disk { to_world } => {
+            let m = to_world.matrix3;
+            vec![Surface::Disk(Disk::new(to_world.translation, m.x_axis, m.y_axis, side * m.z_axis))]
+        }
+        Geometry::Cylinder { frame, radius, length } => {
+            let (radius, length) = (*radius, *length);
+            vec![Surface::Tube(Tube { frame: *frame, radius, length, inwards: shape.flip_normals })]
+        }
+        Geometry::Mesh(mesh) => mesh.triangles(shape.flip_normals).into_iter().map(Surface::Triangle).collect(),
     }
 }

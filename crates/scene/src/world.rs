@@ -6,9 +6,11 @@ use crate::{
     accelerator::{Accelerator, whole},
     bsdf::Bsdf,
     description::{Scene, Shape},
+    mesh::SAME_SURFACE,
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
     ray::Ray,
     sensor::Receiver,
+    tube::FLAT_SHARE,
 };
 
 /// A ray that starts on no known surface ignores what is nearer than this times its origin's largest coordinate.
@@ -23,6 +25,8 @@ pub struct World {
     pub primitives: Vec<Primitive>,
     /// First primitive of each shape, and one past the last of all.
     first_primitive: Vec<u32>,
+    /// Area of all primitives before each, and of all at the end, square metres.
+    area_before: Vec<f64>,
     /// Primitives that no ray notices.
     inert: Vec<bool>,
     /// Shapes that carry a meter.
@@ -40,6 +44,8 @@ impl World {
             primitives.extend(surfaces(shape).into_iter().map(|surface| Primitive { surface, shape: index as u32 }));
             first_primitive.push(primitives.len() as u32);
         }
+        let mut area_before = vec![0.0];
+        primitives.iter().for_each(|p| area_before.push(area_before[area_before.len() - 1] + p.surface.area()));
         let bounds: Vec<_> = primitives.iter().map(|p| p.surface.bounds()).collect();
         let mut metered = vec![false; scene.shapes.len()];
         for sensor in &scene.sensors {
@@ -55,6 +61,7 @@ impl World {
             scene,
             primitives,
             first_primitive,
+            area_before,
             inert,
             metered,
             bounds: whole(&bounds),
@@ -81,6 +88,23 @@ impl World {
     /// The primitives of a shape, as indices.
     pub fn primitives_of(&self, shape: usize) -> std::ops::Range<u32> {
         self.first_primitive[shape]..self.first_primitive[shape + 1]
+    }
+
+    /// Area in square metres of a shape.
+    pub fn area_of(&self, shape: usize) -> f64 {
+        let range = self.primitives_of(shape);
+        self.area_before[range.end as usize] - self.area_before[range.start as usize]
+    }
+
+    /// The primitive of a shape in which a share of the shape's area lies, in [0, 1), and the share of that primitive's own
+    /// area which is left: chosen evenly by area from an even number.
+    pub fn primitive_by_area(&self, shape: usize, share: f64) -> (u32, f64) {
+        let range = self.primitives_of(shape);
+        let sums = &self.area_before[range.start as usize..=range.end as usize];
+        let wanted = sums[0] + share * (sums[sums.len() - 1] - sums[0]);
+        let index = sums.partition_point(|&sum| sum <= wanted).clamp(1, sums.len() - 1) - 1;
+        let rest = (wanted - sums[index]) / (sums[index + 1] - sums[index]);
+        (range.start + index as u32, rest.clamp(0.0, 1.0f64.next_down()))
     }
 
     /// Distance in metres from a point to a shape.
@@ -174,11 +198,15 @@ impl World {
     /// True if a closed ball around a point on a primitive reaches over that primitive's edge or onto another one:
     /// where a density estimate would average over something else than the point's own surface.
     pub fn ball_leaves_surface(&self, point: &SurfacePoint, radius: f64) -> bool {
-        let leaves = match &self.primitives[point.primitive as usize].surface {
+        let surface = &self.primitives[point.primitive as usize].surface;
+        let leaves = match surface {
             Surface::Parallelogram(face) => face.distance_to_edge(point.position) < radius,
+            Surface::Disk(disk) => disk.distance_to_edge(point.position) < radius,
+            Surface::Triangle(face) => face.distance_to_edge(point.position) < radius,
             // Up to the sphere's own radius the ball cuts a cap of area pi r^2 from it (Archimedes), whose normals stay
             // within 60 degrees; beyond, a normal test or the far side spoils the area.
             Surface::Ball(ball) => ball.radius < radius,
+            Surface::Tube(tube) => tube.distance_to_edge(point.position) < radius || FLAT_SHARE * tube.radius < radius,
         };
         if leaves {
             return true;
@@ -187,15 +215,24 @@ impl World {
             index != point.primitive
                 && !self.inert[index as usize]
                 && self.primitives[index as usize].surface.distance(point.position) <= radius
+                && !self.goes_on_as(point, index, radius)
         })
+    }
+
+    /// True if a face near a point belongs to the same mesh, lies nearly in the point's plane, and does not end within the
+    /// ball.
+    fn goes_on_as(&self, point: &SurfacePoint, index: u32, radius: f64) -> bool {
+        let (here, there) = (&self.primitives[point.primitive as usize], &self.primitives[index as usize]);
+        let Surface::Triangle(face) = &there.surface else { return false };
+        here.shape == there.shape
+            && face.normal.dot(point.normal) >= SAME_SURFACE
+            && face.distance_to_edge(point.position) >= radius
+            && (face.corners[0] - point.position).dot(point.normal).abs() <= radius
     }
 
     /// The surface point of a primitive at a position on it.
     pub fn point_on(&self, primitive: u32, position: DVec3) -> SurfacePoint {
-        let normal = match &self.primitives[primitive as usize].surface {
-            Surface::Parallelogram(face) => face.normal,
-            Surface::Ball(ball) => ball.normal(position),
-        };
+        let normal = self.primitives[primitive as usize].surface.normal(position);
         SurfacePoint { position, normal, primitive }
     }
 
@@ -203,22 +240,11 @@ impl World {
         if self.inert[index as usize] {
             return None;
         }
-        let starts_here = from == Some(index);
-        match &self.primitives[index as usize].surface {
-            Surface::Parallelogram(_) if starts_here => None,
-            Surface::Parallelogram(face) => face.intersect(ray, t_min).map(|(t, _)| t),
-            Surface::Ball(ball) => ball.intersect(ray, t_min, starts_here),
-        }
+        self.primitives[index as usize].surface.intersect(ray, t_min, from == Some(index))
     }
 
     fn hit(&self, ray: &Ray, distance: f64, primitive: u32) -> Hit {
-        let position = match &self.primitives[primitive as usize].surface {
-            Surface::Parallelogram(face) => {
-                let landed = ray.at(distance);
-                landed - face.normal * face.normal.dot(landed - face.centre)
-            }
-            Surface::Ball(ball) => ball.project(ray.at(distance)),
-        };
+        let position = self.primitives[primitive as usize].surface.project(ray.at(distance));
         let point = self.point_on(primitive, position);
         Hit { point, distance, front: point.normal.dot(ray.direction) < 0.0 }
     }

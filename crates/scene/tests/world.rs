@@ -1,8 +1,10 @@
 //! Ray casting against brute force, and self-intersection at every scale.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DVec3};
 use photonlab_photometry::Spectrum;
-use photonlab_scene::{Bsdf, Geometry, Ray, Scene, Shape, World};
+use photonlab_scene::{Bsdf, Frame, Geometry, Mesh, Ray, Scene, Shape, World};
 
 /// SplitMix64 (Steele et al. 2014): good enough to place shapes and rays.
 struct Numbers(u64);
@@ -51,14 +53,30 @@ fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> 
             let turn = DMat3::from_axis_angle(numbers.direction(), numbers.next() * 6.0);
             let size = scale * (0.02 + 0.3 * numbers.next());
             let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(size)), centre);
-            let geometry = match i % 3 {
+            let geometry = match i % 6 {
                 0 => Geometry::Rectangle { to_world },
                 1 => Geometry::Cube { to_world },
-                _ => Geometry::Sphere { centre, radius: size, to_world: turn },
+                2 => Geometry::Sphere { centre, radius: size, to_world: turn },
+                3 => Geometry::Disk { to_world },
+                4 => {
+                    let frame = Frame { origin: centre, axes: turn };
+                    Geometry::Cylinder { frame, radius: 0.5 * size, length: size }
+                }
+                _ => Geometry::Mesh(Arc::new(box_mesh(&to_world))),
             };
             shape(geometry, i % 2 == 0)
         })
         .collect()
+}
+
+/// The cube as twelve triangles, outside in front.
+fn box_mesh(to_world: &DAffine3) -> Mesh {
+    let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2 & 1)) * 2.0 - 1.0;
+    let squares = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    Mesh {
+        vertices: (0..8).map(|i| to_world.transform_point3(corner(i))).collect(),
+        faces: squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+    }
 }
 
 #[test]
@@ -117,12 +135,7 @@ fn balls_that_leave_their_surface_agree_with_brute_force() {
         };
         // A neighbour counts if a shape on its own, seen from a point that is not on it, is within the radius.
         let own = small.primitives[hit.point.primitive as usize].shape as usize;
-        let expected = (0..4).filter(|&i| i != own).any(|i| {
-            small.primitives_of(i).any(|p| match &small.primitives[p as usize].surface {
-                photonlab_scene::Surface::Parallelogram(f) => f.distance(hit.point.position) <= radius,
-                photonlab_scene::Surface::Ball(b) => b.distance(hit.point.position) <= radius,
-            })
-        });
+        let expected = (0..4).filter(|&i| i != own).any(|i| small.distance_to_shape(i, hit.point.position) <= radius);
         let found = small.ball_leaves_surface(&hit.point, radius);
         if expected {
             assert!(found);
@@ -144,9 +157,11 @@ fn rays_from_walls_stay_in_the_room() {
             let centre = DVec3::new(0.3, -0.7, 0.2) * offset * scale;
             let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
             let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(scale)), centre);
-            for geometry in
-                [Geometry::Cube { to_world }, Geometry::Sphere { centre, radius: scale, to_world: DMat3::IDENTITY }]
-            {
+            for geometry in [
+                Geometry::Cube { to_world },
+                Geometry::Sphere { centre, radius: scale, to_world: DMat3::IDENTITY },
+                Geometry::Mesh(Arc::new(box_mesh(&to_world))),
+            ] {
                 let room = world(vec![shape(geometry, true)]);
                 for _ in 0..2000 {
                     let mut ray = Ray::new(centre, numbers.direction());
@@ -192,4 +207,37 @@ fn cells_are_drawn_uniformly_by_area() {
         .count() as f64
         / f64::from(n);
     assert!((small - 0.2).abs() < 5.0 * (0.2f64 * 0.8 / f64::from(n)).sqrt());
+}
+
+/// A flat square of many triangles, and of one parallelogram, leave a ball the same room.
+#[test]
+fn a_flat_mesh_is_one_surface() {
+    let mut numbers = Numbers(5);
+    let n = 20;
+    let at = |i: u32| f64::from(i) / f64::from(n) * 2.0 - 1.0;
+    let vertices = (0..=n).flat_map(|j| (0..=n).map(move |i| DVec3::new(at(i), at(j), 0.0))).collect();
+    let corner = |i: u32, j: u32| j * (n + 1) + i;
+    let faces = (0..n)
+        .flat_map(|j| (0..n).map(move |i| (i, j)))
+        .flat_map(|(i, j)| {
+            let [a, b, c, d] = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        })
+        .collect();
+    let to_world = DAffine3::IDENTITY;
+    let mesh = world(vec![shape(Geometry::Mesh(Arc::new(Mesh { vertices, faces })), false)]);
+    let square = world(vec![shape(Geometry::Rectangle { to_world }, false)]);
+    let mut seen = [0, 0];
+    for _ in 0..2000 {
+        let ray = Ray::new(DVec3::new(numbers.next() * 2.0 - 1.0, numbers.next() * 2.0 - 1.0, 1.0), DVec3::NEG_Z);
+        let radius = numbers.next();
+        let leaves = [&mesh, &square].map(|world| {
+            let hit = world.cast(&ray, None, f64::INFINITY).expect("it is there");
+            assert!(hit.front);
+            world.ball_leaves_surface(&hit.point, radius)
+        });
+        assert_eq!(leaves[0], leaves[1], "{ray:?} {radius}");
+        seen[usize::from(leaves[0])] += 1;
+    }
+    assert!(seen[0] > 100 && seen[1] > 100, "{seen:?}");
 }

@@ -7,9 +7,11 @@ use photonlab_photometry::Spectrum;
 use crate::{Bsdf, Geometry, Shape};
 
 use super::bsdf::{TAGS, bsdf};
+use super::cylinder::cylinder;
 use super::element::Element;
 use super::emitter::area;
 use super::error::SceneError;
+use super::mesh::mesh;
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -21,7 +23,7 @@ use super::sphere::sphere;
 pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
-    let (geometry, mirrored) = geometry(&mut object)?;
+    let (geometry, mirrored) = geometry(&mut object, builder)?;
     let flipped = object.boolean("flip_normals")?.unwrap_or(false);
     if object.float("silhouette_sampling_weight", Range::ANY)?.is_some() {
         builder.note("silhouette_sampling_weight is for Mitsuba's own sampling and has no effect here");
@@ -65,13 +67,17 @@ fn check_portal(portal: &Element, geometry: &Geometry, meters: &[&Element]) -> R
 }
 
 /// The geometry, and whether a mirror in `to_world` turns its normals around beyond what [`Geometry`] says.
-fn geometry(object: &mut Object) -> Result<(Geometry, bool), SceneError> {
-    if object.plugin == "sphere" {
-        return sphere(object);
+fn geometry(object: &mut Object, builder: &mut Builder) -> Result<(Geometry, bool), SceneError> {
+    match object.plugin {
+        "sphere" => return sphere(object),
+        "cylinder" => return cylinder(object).map(|cylinder| (cylinder, false)),
+        "obj" | "ply" => return mesh(object, builder).map(|mesh| (mesh, false)),
+        _ => {}
     }
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
     Ok(match object.plugin {
         "cube" => (Geometry::Cube { to_world }, false),
+        "disk" => (Geometry::Disk { to_world }, false),
         _ => (Geometry::Rectangle { to_world }, false),
     })
 }

@@ -96,5 +96,8 @@ fn defines_name_defaults() {
     }
     let body = "<default name='r' value='1'/>\n<shape type='$r'/>";
     let error = read_body(body, &[("r", "ball")]).expect_err("no ball");
-    assert_eq!(error.to_string(), "test.xml:3: shape: unknown shape \"ball\"; use one of cube, sphere, rectangle");
+    assert_eq!(
+        error.to_string(),
+        "test.xml:3: shape: unknown shape \"ball\"; use one of ply, cube, disk, obj, sphere, cylinder, rectangle"
+    );
 }

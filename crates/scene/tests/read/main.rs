@@ -4,6 +4,7 @@ mod broken;
 mod features;
 mod files;
 mod hostile;
+mod meshes;
 mod optics;
 mod samples;
 
