@@ -2,7 +2,7 @@
 
 use photonlab_photometry::{Channels, Response, Spectrum};
 use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
-use photonlab_sampling::PassOptics;
+use photonlab_sampling::{PassOptics, leak};
 use photonlab_scene::{Emitter, Needs, Receiver, Scene, World, read::read_scene};
 
 use crate::{
@@ -15,7 +15,12 @@ pub(crate) struct Loaded {
     pub(crate) world: World,
     pub(crate) needs: Needs,
     pub(crate) identity: u128,
+    /// Share of walks from the scene's portals that find another way out.
+    pub(crate) leak: f64,
 }
+
+/// Leak above which portals are refused; below it readings are made but not certified.
+const MOST_LEAK: f64 = 0.01;
 
 impl Loaded {
     /// Reads a scene file; what it supersedes is said on standard error.
@@ -24,15 +29,24 @@ impl Loaded {
         for note in &scene.notes {
             say!("{}: note: {note}", arguments.scene.display());
         }
-        Ok(Self { needs: Needs::of(&scene), identity: scene_identity(&scene), world: World::new(scene) })
+        let (needs, identity, world) = (Needs::of(&scene), scene_identity(&scene), World::new(scene));
+        Ok(Self { needs, identity, leak: leak(&world), world })
     }
 
-    /// Refuses a scene without light.
+    /// Refuses a scene without light, and one whose portals are not the only ways in.
     pub(crate) fn needs_light(&self, file: &std::path::Path) -> Result<(), Failure> {
-        if self.world.scene.has_light() {
-            return Ok(());
+        if !self.world.scene.has_light() {
+            return Err(Failure::usage(format!("{}:1: scene: no lamp; add an <emitter>", file.display())));
         }
-        Err(Failure::usage(format!("{}:1: scene: no lamp; add an <emitter>", file.display())))
+        if self.leak > MOST_LEAK {
+            return Err(Failure::usage(format!(
+                "{}:1: scene: its portals are not the only ways in: {:.1} % of walks from them leave by another; turn them \
+                 inwards, put one into every opening, a little larger than that, or take them out",
+                file.display(),
+                100.0 * self.leak
+            )));
+        }
+        Ok(())
     }
 }
 

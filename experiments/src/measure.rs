@@ -5,7 +5,7 @@ use std::{io::Write, time::Instant};
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass, Response};
 use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
-use photonlab_scene::{Emitter, Needs, Receiver, Scene};
+use photonlab_scene::{Emitter, Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
 
 use crate::{
@@ -78,7 +78,7 @@ fn run<const C: usize>(
         channels: channel_names(outcome.channels),
         needs: loaded.needs.list.iter().map(|n| Need { need: n.need.clone(), reason: n.reason.clone() }).collect(),
         ledger: flux_ledger(outcome.ledger.as_ref(), outcome.results),
-        readings: readings(&loaded.world.scene, cells, &outcome, options, &settings, &loaded.needs)?,
+        readings: readings(loaded, cells, &outcome, options, &settings)?,
     })
 }
 
@@ -124,16 +124,15 @@ fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(),
 }
 
 fn readings<const C: usize>(
-    scene: &Scene,
+    loaded: &Loaded,
     cells: &[Cell],
     outcome: &Outcome<C>,
     options: &Options,
     settings: &Settings,
-    needs: &Needs,
 ) -> Result<Vec<Reading>, Failure> {
     let passes = outcome.passes;
     let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
-    let doubt = doubt(scene, settings, needs);
+    let (scene, doubt) = (&loaded.world.scene, doubt(loaded, settings));
     let emits: Vec<bool> = (0..outcome.results).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
     let mut readings = Vec::new();
     for (cell, result) in cells.iter().zip(&outcome.cells) {
@@ -185,15 +184,22 @@ fn readings<const C: usize>(
 }
 
 /// Why no reading of this method can be certified in this scene, if so.
-pub(crate) fn doubt(scene: &Scene, settings: &Settings, needs: &Needs) -> Option<String> {
+pub(crate) fn doubt(loaded: &Loaded, settings: &Settings) -> Option<String> {
+    let scene = &loaded.world.scene;
     let by_paths = settings.method == Method::Path || scene.media.iter().any(|medium| medium.scatters());
     let has_delta_lamp = scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }));
-    if settings.method != Method::Bins && by_paths && needs.caustic && has_delta_lamp {
+    if settings.method != Method::Bins && by_paths && loaded.needs.caustic && has_delta_lamp {
         return Some(
             "rays that look for light, on surfaces or in media, cannot find a point or directional lamp by way of specular \
              surfaces; --method bins counts its photons"
                 .into(),
         );
+    }
+    if loaded.leak > 0.0 {
+        return Some(format!(
+            "{:.3} % of walks from the portals leave the scene by another way, and what light comes in there few photons tell",
+            100.0 * loaded.leak
+        ));
     }
     if settings.area == photonlab_gather::AreaModel::Sphere {
         return Some(

@@ -75,7 +75,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
-    if let Some(doubt) = doubt(&world.scene, &settings, needs) {
+    if let Some(doubt) = doubt(loaded, &settings) {
         say!("warning: this image is not certified: {doubt}");
     }
     let unit = cells[0].quantity().in_system(options.unit_system()).unit();

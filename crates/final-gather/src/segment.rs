@@ -1,5 +1,6 @@
 //! From a point or an eye along a ray, through specular surfaces, to where light is read.
 
+use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
     Flight, Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, Volume, balance_pdf, goes_through,
@@ -76,6 +77,8 @@ struct Walk<'w, const C: usize> {
     ray: Ray,
     from: Option<u32>,
     medium: Option<u32>,
+    /// Where it was bent last or started: from there lamps would have been drawn. Masks that it passes change nothing.
+    seen_from: DVec3,
     weight: Colour<C>,
     /// Density per solid angle with which the last rough surface drew the ray; `None` if it sought no lamp.
     rough_pdf: Option<f64>,
@@ -108,6 +111,7 @@ pub fn follow<const C: usize>(
         ray: start.ray,
         from: start.from,
         medium: start.medium,
+        seen_from: start.ray.origin,
         weight: Colour::ONE,
         rough_pdf: None,
         bent: false,
@@ -192,7 +196,7 @@ impl<const C: usize> Walk<'_, C> {
         if radiance.is_zero() {
             return;
         }
-        let (primitive, from, to) = (hit.point.primitive, self.ray.origin, hit.point.position);
+        let (primitive, from, to) = (hit.point.primitive, self.seen_from, hit.point.position);
         if self.bent {
             let drawn =
                 self.rough_pdf.map(|pdf| (pdf, balance_pdf(self.world, &self.optics.lamps, primitive, from, to)));
@@ -206,7 +210,8 @@ impl<const C: usize> Walk<'_, C> {
 
     /// Counts what comes from infinity.
     fn escape(&mut self) {
-        let Some((radiance, drawn)) = self.optics.lamps.from_infinity(self.ray.direction) else { return };
+        let seen = Ray::new(self.seen_from, self.ray.direction);
+        let Some((radiance, drawn)) = self.optics.lamps.from_infinity(self.world, &seen) else { return };
         if self.bent {
             self.behind_specular(radiance, self.rough_pdf.map(|pdf| (pdf, drawn)));
         } else {
@@ -268,7 +273,7 @@ impl<const C: usize> Walk<'_, C> {
         // Seen from the eye, light that goes on along the reversed ray came from the direction that is drawn here.
         let direction = scatter(volume.phase, self.ray.direction, stream);
         self.rough_pdf = Some(phase_pdf_solid_angle(volume.phase, direction.dot(self.ray.direction)));
-        (self.ray, self.from) = (Ray::new(at, direction), None);
+        (self.ray, self.from, self.seen_from) = (Ray::new(at, direction), None, at);
         true
     }
 
@@ -277,6 +282,7 @@ impl<const C: usize> Walk<'_, C> {
         self.weight = self.weight * share;
         let front = ray.direction.dot(hit.point.normal) > 0.0;
         self.medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
+        self.seen_from = ray.origin;
         self.ray = ray;
         self.from = Some(hit.point.primitive);
         self.rough_pdf = rough_pdf;

@@ -63,17 +63,15 @@ impl<const C: usize> LightDraw<C> {
                 point_emission: 0.0,
             }),
             LampKind::Environment { environment, .. } => {
-                let direction = environment.draw([xi[1], xi[2]]);
-                let pdf = chosen * environment.pdf_solid_angle(direction);
-                (pdf > 0.0).then(|| Self {
-                    direction,
-                    distance: f64::INFINITY,
-                    on: None,
-                    radiance_over_pdf: environment.radiance(direction) * (1.0 / pdf),
-                    pdf_solid_angle: pdf,
-                    alone: false,
-                    point_emission: 0.0,
-                })
+                Self::from_infinity(world, lamps, Ray::new(from, environment.draw([xi[1], xi[2]])))
+            }
+            LampKind::Portal { primitive, .. } => {
+                let draw = AreaDraw::new(world, *primitive, from);
+                let position = draw.position([xi[1], xi[2]]);
+                if draw.pdf_solid_angle(position) == 0.0 {
+                    return None;
+                }
+                Self::from_infinity(world, lamps, Ray::new(from, (position - from).normalize()))
             }
             LampKind::Area { primitive, radiance, .. } => {
                 Self::on_surface(world, *primitive, *radiance, chosen, from, [xi[1], xi[2]])
@@ -83,6 +81,20 @@ impl<const C: usize> LightDraw<C> {
                 Self::on_surface(world, primitive, *radiance, chosen, from, [rest, xi[2]])
             }
         }
+    }
+
+    /// Light of the environment, however its direction was drawn: all draws that could have found it share in its density.
+    fn from_infinity(world: &World, lamps: &Lamps<C>, ray: Ray) -> Option<Self> {
+        let (radiance, pdf) = lamps.from_infinity(world, &ray)?;
+        (pdf > 0.0).then(|| Self {
+            direction: ray.direction,
+            distance: f64::INFINITY,
+            on: None,
+            radiance_over_pdf: radiance * (1.0 / pdf),
+            pdf_solid_angle: pdf,
+            alone: false,
+            point_emission: 0.0,
+        })
     }
 
     /// Draws a point of an emitting primitive whose lamp was chosen with a probability.
@@ -194,6 +206,11 @@ pub fn lamp_pdf_solid_angle<const C: usize>(
 ) -> Option<f64> {
     lamps.of_primitive(primitive)?;
     (!is_drawn_alone(world, primitive)).then(|| balance_pdf(world, lamps, primitive, from, position))
+}
+
+/// Density per solid angle with which the point `position` of a primitive is drawn, seen from `from`.
+pub(crate) fn area_pdf_solid_angle(world: &World, primitive: u32, from: DVec3, position: DVec3) -> f64 {
+    AreaDraw::new(world, primitive, from).pdf_solid_angle(position)
 }
 
 /// True for emitting primitives whose direct light is drawn evenly over the solid angle under which they are seen: the

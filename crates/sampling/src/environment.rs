@@ -54,6 +54,11 @@ impl<const C: usize> Environment<C> {
         }
     }
 
+    /// True if it may shine from small places that a coarse look misses.
+    pub(crate) fn has_details(&self) -> bool {
+        matches!(self.kind, Kind::Map(_))
+    }
+
     /// A direction, from two numbers.
     pub fn draw(&self, xi: [f64; 2]) -> DVec3 {
         match &self.kind {

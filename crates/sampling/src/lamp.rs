@@ -6,7 +6,7 @@ use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Pattern, Ray, World};
 
-use crate::{Environment, Stream, pattern, warp};
+use crate::{Environment, Portal, Stream, pattern, portal::crosses, warp};
 
 /// A source of light with its total flux.
 #[derive(Clone, Debug)]
@@ -52,6 +52,17 @@ pub enum LampKind<const C: usize> {
         centre: DVec3,
         /// Its radius, metres.
         radius: f64,
+        /// The primitives of its portals.
+        portals: Arc<[u32]>,
+    },
+    /// Light of the environment that comes through an opening.
+    Portal {
+        /// Index into [`World::primitives`].
+        primitive: u32,
+        /// The directions of its light.
+        portal: Arc<Portal<C>>,
+        /// The primitives of the portals before it in the file.
+        earlier: Arc<[u32]>,
     },
     /// Lambertian front side of all faces of a mesh.
     Faces {
@@ -80,7 +91,8 @@ pub struct Emission<const C: usize> {
     pub ray: Ray,
     /// The primitive it starts on, if any.
     pub from: Option<u32>,
-    /// Flux over the lamp's mean per ray: one for most lamps, one on average for all.
+    /// Flux over the lamp's mean per ray: one for most lamps, one on average for all but environments with portals and
+    /// portals with something before them, whose dark rays stand for light that another lamp sends or that is hidden.
     pub weight: Colour<C>,
 }
 
@@ -97,17 +109,39 @@ impl<const C: usize> Lamp<C> {
                 let [s, t] = stream.next2();
                 even(Ray::new(*corner + s * sides[0] + t * sides[1], *direction), None)
             }
-            LampKind::Environment { environment, centre, radius } => {
+            LampKind::Environment { environment, centre, radius, portals } => {
                 let (towards, weight) = environment.emit(stream);
                 let [s, t] = stream.next2();
                 let (sin, cos) = (2.0 * PI * t).sin_cos();
                 let (tangent, bitangent) = towards.any_orthonormal_pair();
                 let on_disc = s.sqrt() * (cos * tangent + sin * bitangent);
                 let origin = *centre + *radius * (on_disc + 1.01 * towards);
-                Emission { ray: Ray::new(origin, -towards), from: None, weight }
+                let ray = Ray::new(origin, -towards);
+                let free = || first_hit(world, &ray, None);
+                let weight = if crosses(world, portals, &ray, free) { Colour::ZERO } else { weight };
+                Emission { ray, from: None, weight }
+            }
+            LampKind::Portal { primitive, portal, earlier } => {
+                let from = Some(*primitive);
+                let position = world.primitives[*primitive as usize].surface.point_by_area(stream.next2());
+                let (direction, weight) = portal.emit(stream);
+                let ray = Ray::new(position, direction);
+                let hidden = || first_hit(world, &Ray::new(position, -direction), from) < f64::INFINITY;
+                let dark =
+                    weight.is_zero() || hidden() || crosses(world, earlier, &ray, || first_hit(world, &ray, from));
+                Emission { ray, from, weight: if dark { Colour::ZERO } else { weight } }
             }
             LampKind::Area { primitive, .. } => even_from(world, *primitive, stream),
             LampKind::Faces { shape, .. } => even_from(world, world.primitive_by_area(*shape, stream.next()).0, stream),
+        }
+    }
+
+    /// What photons and draws are shared out by: the flux in the strongest channel, but none of an environment that has
+    /// portals for what matters of it.
+    pub fn importance(&self) -> f64 {
+        match &self.kind {
+            LampKind::Environment { portals, .. } if !portals.is_empty() => 0.0,
+            _ => self.flux.max(),
         }
     }
 
@@ -133,6 +167,11 @@ impl<const C: usize> Lamp<C> {
     pub fn is_delta(&self) -> bool {
         matches!(self.kind, LampKind::Point { .. } | LampKind::Directional { .. })
     }
+}
+
+/// Distance to the first surface along a ray; infinite if there is none.
+fn first_hit(world: &World, ray: &Ray, from: Option<u32>) -> f64 {
+    world.cast(ray, from, f64::INFINITY).map_or(f64::INFINITY, |hit| hit.distance)
 }
 
 /// A ray from a primitive whose front side shines evenly.

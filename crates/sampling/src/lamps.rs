@@ -2,11 +2,13 @@
 
 use std::{f64::consts::PI, sync::Arc};
 
-use glam::DVec3;
 use photonlab_photometry::{Colour, Palette};
-use photonlab_scene::{Emitter, Geometry, World};
+use photonlab_scene::{Emitter, Geometry, Ray, World};
 
-use crate::{Environment, Lamp, LampKind, pattern, window::covering_window};
+use crate::{
+    Environment, Lamp, LampKind, Portal, direct::area_pdf_solid_angle, pattern, portal::way_out,
+    window::covering_window,
+};
 
 /// All lamps of a scene, one per emitting primitive, with the probability of choosing each for direct light.
 #[derive(Clone, Debug)]
@@ -21,13 +23,20 @@ pub struct Lamps<const C: usize> {
     of_primitive: Vec<Option<u32>>,
     /// The lamp that is the environment, if there is one.
     environment: Option<usize>,
+    /// The environment's portals: lamps and their primitives.
+    portals: Vec<(usize, u32)>,
 }
 
 impl<const C: usize> Lamps<C> {
     /// Collects the lamps of a scene.
     pub fn new(world: &World, palette: &Palette<C>) -> Self {
-        let mut lamps: Vec<Lamp<C>> =
-            world.scene.emitters.iter().filter(|e| !e.is_black()).map(|e| surfaceless(world, e, palette)).collect();
+        let mut lamps: Vec<Lamp<C>> = world
+            .scene
+            .emitters
+            .iter()
+            .filter(|e| !e.is_black())
+            .flat_map(|e| surfaceless(world, e, palette))
+            .collect();
         for (index, shape) in world.scene.shapes.iter().enumerate() {
             let Some(emission) = shape.radiance.as_ref().filter(|emission| !emission.is_black()) else { continue };
             let radiance = palette.emission(emission);
@@ -57,15 +66,20 @@ impl<const C: usize> Lamps<C> {
             }
         }
         let environment = lamps.iter().position(|lamp| matches!(lamp.kind, LampKind::Environment { .. }));
-        let total: f64 = lamps.iter().map(|lamp| lamp.flux.max()).sum();
+        let portals = lamps.iter().enumerate().filter_map(|(index, lamp)| match lamp.kind {
+            LampKind::Portal { primitive, .. } => Some((index, primitive)),
+            _ => None,
+        });
+        let portals: Vec<_> = portals.collect();
+        let total: f64 = lamps.iter().map(Lamp::importance).sum();
         // Half by flux and half evenly: a weak lamp close to a receiver is not starved.
         let even = 1.0 / lamps.len() as f64;
         // In a pass whose wavelengths no lamp emits, all are alike.
         let share = |flux: f64| if total > 0.0 { flux / total } else { even };
-        let probability: Vec<f64> = lamps.iter().map(|lamp| 0.5 * share(lamp.flux.max()) + 0.5 * even).collect();
+        let probability: Vec<f64> = lamps.iter().map(|lamp| 0.5 * share(lamp.importance()) + 0.5 * even).collect();
         let sum = |sum: &mut f64, p: &f64| Some(std::mem::replace(sum, *sum + p));
         let before = probability.iter().scan(0.0, sum).collect();
-        Self { lamps, probability, before, of_primitive, environment }
+        Self { lamps, probability, before, of_primitive, environment, portals }
     }
 
     /// The lamp of a primitive, if that emits.
@@ -84,14 +98,19 @@ impl<const C: usize> Lamps<C> {
         }
     }
 
-    /// Radiance that comes from infinity along a direction, outwards, and the density per solid angle with which
-    /// [`crate::LightDraw`] draws it, the choice of the lamp included; `None` without an environment.
-    pub fn from_infinity(&self, direction: DVec3) -> Option<(Colour<C>, f64)> {
+    /// Radiance that comes from infinity along a ray, and the density per solid angle with which [`crate::LightDraw`] draws
+    /// its direction from its start, the choice of the lamp included; `None` without an environment.
+    pub fn from_infinity(&self, world: &World, ray: &Ray) -> Option<(Colour<C>, f64)> {
         let index = self.environment?;
         match &self.lamps[index].kind {
             LampKind::Environment { environment, .. } => {
-                let pdf = self.probability[index] * environment.pdf_solid_angle(direction);
-                Some((environment.radiance(direction), pdf))
+                let mut pdf = self.probability[index] * environment.pdf_solid_angle(ray.direction);
+                for &(lamp, primitive) in &self.portals {
+                    if let Some(position) = way_out(world, primitive, ray) {
+                        pdf += self.probability[lamp] * area_pdf_solid_angle(world, primitive, ray.origin, position);
+                    }
+                }
+                Some((environment.radiance(ray.direction), pdf))
             }
             _ => None,
         }
@@ -107,35 +126,37 @@ impl<const C: usize> Lamps<C> {
     pub fn are_sampled_alone(&self, world: &World) -> bool {
         self.lamps.iter().all(|lamp| match lamp.kind {
             LampKind::Point { .. } | LampKind::Directional { .. } => true,
-            LampKind::Environment { .. } | LampKind::Faces { .. } => false,
+            LampKind::Environment { .. } | LampKind::Portal { .. } | LampKind::Faces { .. } => false,
             LampKind::Area { primitive, .. } => crate::direct::is_drawn_alone(world, primitive),
         })
     }
 
-    /// Sum of all lamps' flux.
+    /// Sum of all lamps' flux; what comes through portals is in that of the environment.
     pub fn total_flux(&self) -> Colour<C> {
-        self.lamps.iter().fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)
+        let apart = self.lamps.iter().filter(|lamp| !matches!(lamp.kind, LampKind::Portal { .. }));
+        apart.fold(Colour::ZERO, |sum, lamp| sum + lamp.flux)
     }
 }
 
-fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palette<C>) -> Lamp<C> {
-    match emitter {
+/// The lamp of an emitter; of an environment, with one for each portal.
+fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palette<C>) -> Vec<Lamp<C>> {
+    vec![match emitter {
         Emitter::Point { id, position, intensity, pattern, medium } => {
             let intensity = palette.emission(intensity);
             let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
             Lamp { id: id.clone(), kind, medium: *medium, flux: intensity * pattern::integral(pattern) }
         }
-        Emitter::Environment { id, light } => {
+        Emitter::Environment { id, light, portals } => {
             let environment = Arc::new(Environment::new(light, palette));
+            let primitives: Arc<[u32]> = portals.iter().flat_map(|&shape| world.primitives_of(shape)).collect();
             let (low, high) = world.bounds();
             let radius = 0.5 * (high - low).length() * (1.0 + 1e-9);
             let flux = environment.total * (PI * radius * radius);
-            Lamp {
-                id: id.clone(),
-                kind: LampKind::Environment { environment, centre: 0.5 * (low + high), radius },
-                medium: None,
-                flux,
-            }
+            let mut lamps = through_portals(world, &environment, &primitives);
+            let (centre, portals) = (0.5 * (low + high), primitives);
+            let kind = LampKind::Environment { environment, centre, radius, portals };
+            lamps.push(Lamp { id: id.clone(), kind, medium: None, flux });
+            return lamps;
         }
         Emitter::Directional { id, direction, irradiance } => {
             let irradiance = palette.emission(irradiance);
@@ -144,5 +165,21 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
             let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };
             Lamp { id: id.clone(), kind, medium: None, flux: irradiance * area }
         }
-    }
+    }]
+}
+
+fn through_portals<const C: usize>(
+    world: &World,
+    environment: &Arc<Environment<C>>,
+    primitives: &[u32],
+) -> Vec<Lamp<C>> {
+    let lamp = |(place, &primitive): (usize, &u32)| {
+        let surface = &world.primitives[primitive as usize].surface;
+        let normal = world.point_on(primitive, surface.point_by_area([0.5; 2])).normal;
+        let portal = Arc::new(Portal::new(environment, normal));
+        let flux = portal.irradiance * surface.area();
+        let kind = LampKind::Portal { primitive, portal, earlier: primitives[..place].into() };
+        Lamp { id: world.shape_of(primitive).id.clone(), kind, medium: None, flux }
+    };
+    primitives.iter().enumerate().map(lamp).collect()
 }

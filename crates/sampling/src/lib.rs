@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod direct;
+mod enclosure;
 mod environment;
 mod environment_table;
 mod fresnel;
@@ -17,6 +18,7 @@ mod pass_optics;
 mod pattern;
 mod phase;
 mod plan;
+mod portal;
 mod rough;
 mod scatter;
 mod specular;
@@ -29,6 +31,7 @@ mod wavelength_plan;
 mod window;
 
 pub use direct::{DirectSample, LightDraw, balance_pdf, lamp_pdf_solid_angle, sample_direct};
+pub use enclosure::leak;
 pub use environment::Environment;
 pub use fresnel::{diffuse_fresnel, fresnel_conductor, fresnel_dielectric};
 pub use lamp::{Emission, Lamp, LampKind};
@@ -39,6 +42,7 @@ pub use optics::Optics;
 pub use pass_optics::{NothingCounts, PassOptics};
 pub use phase::{phase_pdf_solid_angle, scatter};
 pub use plan::{EmissionPlan, PlanError};
+pub use portal::Portal;
 pub use rough::{FacetMaterial, Rough, RoughDraw};
 pub use scatter::{Dispersive, Followed, Interaction, Onward, goes_through};
 pub use specular::Specular;

@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Colour;
 
-use crate::Lamps;
+use crate::{Lamp, Lamps};
 
 /// No lamp gets less than this share of an even division, so that a weak lamp is not starved.
 const FLOOR: f64 = 0.1;
@@ -35,7 +35,7 @@ pub enum PlanError {
 }
 
 impl<const C: usize> EmissionPlan<C> {
-    /// Shares photons among lamps by flux (their strongest channel), with a floor of a tenth of an even share.
+    /// Shares photons among lamps by [`Lamp::importance`], with a floor of a tenth of an even share.
     pub fn new(lamps: &Lamps<C>, photons: u64) -> Result<Self, PlanError> {
         let count = lamps.lamps.len();
         if count == 0 {
@@ -44,10 +44,10 @@ impl<const C: usize> EmissionPlan<C> {
         if photons < count as u64 {
             return Err(PlanError::TooFewPhotons { photons, lamps: count });
         }
-        let total: f64 = lamps.lamps.iter().map(|lamp| lamp.flux.max()).sum();
+        let total: f64 = lamps.lamps.iter().map(Lamp::importance).sum();
         let even = 1.0 / count as f64;
         let weight = |flux: f64| (flux / total).max(FLOOR * even);
-        let weights: Vec<f64> = lamps.lamps.iter().map(|lamp| weight(lamp.flux.max())).collect();
+        let weights: Vec<f64> = lamps.lamps.iter().map(|lamp| weight(lamp.importance())).collect();
         let sum: f64 = weights.iter().sum();
         // Each lamp gets one photon, the rest are rounded cumulatively so that they add up.
         let spare = photons - count as u64;

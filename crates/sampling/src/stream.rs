@@ -14,6 +14,8 @@ pub enum Purpose {
     Probes = 4,
     /// Wavelengths of a pass.
     Wavelengths = 5,
+    /// Walks that look for ways out; the index is the walk's.
+    Enclosure = 6,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }

@@ -40,6 +40,9 @@ pub enum Emitter {
         id: String,
         /// Its radiance by direction.
         light: EnvironmentLight,
+        /// Rectangles without a coating in the openings through which it is sought first, normals along the light's way
+        /// (extension `portal`): indices into [`Scene::shapes`](crate::Scene::shapes).
+        portals: Vec<usize>,
     },
 }
 

@@ -107,6 +107,10 @@ pub(crate) fn follow<const C: usize>(
     let emission = optics.lamps.lamps[lamp].emit(world, &mut stream);
     let flux = flux * emission.weight;
     out.ledger.emitted += flux;
+    // A ray that another lamp or nothing stands for.
+    if flux.is_zero() {
+        return Ok(());
+    }
     let mut walk = Walk {
         ray: emission.ray,
         from: emission.from,

@@ -31,7 +31,10 @@ pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Re
             if builder.scene.emitters.iter().any(|e| matches!(e, Emitter::Environment { .. })) {
                 return Err(element.error("a second environment", "keep one of constant, envmap and sky"));
             }
-            Emitter::Environment { id, light: environment(object, builder)? }
+            Emitter::Environment { id, light: environment(object, builder)?, portals: Vec::new() }
+        }
+        "portal" => {
+            return Err(element.error("a portal outside a shape", "put it into a rectangle in the opening"));
         }
         _ => {
             return Err(element.error("an area lamp outside a shape", "put it into the shape that shines"));

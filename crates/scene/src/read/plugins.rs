@@ -64,7 +64,7 @@ const BSDFS: Plugins = Plugins {
 };
 
 const EMITTERS: Plugins = Plugins {
-    built: &["area", "point", "spot", "directional", "constant", "envmap", "sky", "ies"],
+    built: &["area", "point", "spot", "directional", "constant", "envmap", "sky", "ies", "portal"],
     later: &[],
     foreign: &["directionalarea", "projector", "sunsky", "timed_sunsky", "volumelight"],
 };

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::luminaire::IntensityTable;
-use crate::{Bsdf, Scene};
+use crate::{Bsdf, Emitter, Scene};
 
 use super::bsdf::bsdf;
 use super::element::Element;
@@ -31,6 +31,8 @@ pub(super) struct Builder<'e> {
     pub(super) integrator: Option<&'e Element>,
     /// The luminaire files that were read so far: a room hangs one many times.
     pub(super) luminaires: HashMap<PathBuf, Arc<IntensityTable>>,
+    /// The portals that were read so far and the shapes that they stand in.
+    pub(super) portals: Vec<(&'e Element, usize)>,
 }
 
 /// Makes the scene that the tree describes.
@@ -51,11 +53,13 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
         ids,
         integrator: None,
         luminaires: HashMap::new(),
+        portals: Vec::new(),
     };
     for element in &root.children {
         builder.part(element)?;
     }
     check_indices(root, &builder.scene)?;
+    builder.aim()?;
     keep_lumens(&mut builder.scene);
     Ok(builder.scene)
 }
@@ -94,6 +98,20 @@ impl<'e> Builder<'e> {
                     .error(what, "a scene takes bsdf, default, emitter, include, integrator, medium, sensor, shape"))
             }
         }
+    }
+
+    /// Gives the environment its portals.
+    fn aim(&mut self) -> Result<(), SceneError> {
+        let Some(&(first, _)) = self.portals.first() else { return Ok(()) };
+        let environment = self.scene.emitters.iter_mut().find_map(|emitter| match emitter {
+            Emitter::Environment { portals, .. } => Some(portals),
+            _ => None,
+        });
+        let Some(portals) = environment else {
+            return Err(first.error("a portal without an environment", "add one of constant, envmap and sky"));
+        };
+        portals.extend(self.portals.iter().map(|(_, shape)| *shape));
+        Ok(())
     }
 
     /// The element's id, or `STEM-NUMBER` if it has none and no other element has that.

@@ -32,18 +32,40 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     let boundary = boundary(&mut object, builder)?;
     let coating = object.single(&TAGS)?;
     let lamp = object.single(&["emitter"])?;
+    let portal = lamp.filter(|lamp| lamp.attribute("type") == Some("portal"));
+    let lamp = lamp.filter(|_| portal.is_none());
     let meters = object.objects(&["sensor"]);
     object.close(&["to_uv"])?;
 
+    if let Some(portal) = portal {
+        check_portal(portal, &geometry, &meters)?;
+    }
     let radiance = lamp.map(|lamp| area(lamp, builder)).transpose()?;
     let bsdf = match coating {
         Some(coating) => bsdf(coating, builder)?,
+        None if portal.is_some() => Bsdf::Null,
         None => uncoated(radiance.is_some()),
     };
+    if let (Some(portal), true) = (portal, bsdf != Bsdf::Null) {
+        return Err(portal.error("a portal in a coated shape", "take its bsdf out, or make it null"));
+    }
     let index = builder.scene.shapes.len();
+    builder.portals.extend(portal.map(|portal| (portal, index)));
     let id = builder.id(element, "shape", index)?;
     builder.scene.shapes.push(Shape { id, geometry, flip_normals: flipped != mirrored, bsdf, boundary, radiance });
     meters.into_iter().try_for_each(|meter| sensor(meter, Position::OnShape(index), builder))
+}
+
+/// Checks what a portal stands in and with.
+fn check_portal(portal: &Element, geometry: &Geometry, meters: &[&Element]) -> Result<(), SceneError> {
+    Object::open(portal)?.close(&[])?;
+    if !matches!(geometry, Geometry::Rectangle { .. }) {
+        return Err(portal.error("a portal in a shape that is no rectangle", "put a rectangle into the opening"));
+    }
+    if let Some(other) = meters.first() {
+        return Err(other.error("a meter on a portal", "put it on a rectangle of its own, a little before the portal"));
+    }
+    Ok(())
 }
 
 /// The geometry, and whether a mirror in `to_world` turns its normals around beyond what [`Geometry`] says.
