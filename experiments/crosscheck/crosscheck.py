@@ -81,6 +81,22 @@ SHAPES = {
 }
 
 
+# The room with a medium in it; Mitsuba follows light there by its integrator volpath.
+MEDIA = {
+    "fog-ball": '<shape type="sphere"><float name="radius" value="0.7"/><bsdf type="null"/>'
+    '<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="0.2 0.4 0.8"/><float name="scale" value="5"/><rgb name="albedo" value="0.9 0.8 0.5"/></medium></shape>',
+    "fog-forward": '<shape type="cube"><transform name="to_world"><scale value="0.6"/></transform><bsdf type="null"/>'
+    '<medium type="homogeneous" name="interior"><float name="sigma_t" value="3"/><rgb name="albedo" value="0.99 0.9 0.7"/>'
+    '<phase type="hg"><float name="g" value="0.7"/></phase></medium></shape>'
+    '<shape type="sphere"><float name="radius" value="0.3"/></shape>',
+    "milk-glass": '<shape type="sphere"><float name="radius" value="0.6"/><bsdf type="dielectric"><float name="int_ior" value="1.3"/></bsdf>'
+    '<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="1 0.8 0.6"/><float name="scale" value="5"/><rgb name="albedo" value="0.95 0.9 0.99"/>'
+    '<phase type="hg"><float name="g" value="-0.3"/></phase></medium></shape>',
+    "smoked-glass": '<shape type="cube"><transform name="to_world"><scale value="0.4"/><rotate y="1" angle="30"/></transform><bsdf type="dielectric"/>'
+    '<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="0.05 0.25 0.75"/><float name="scale" value="4"/><float name="albedo" value="0"/></medium></shape>',
+}
+
+
 def write_rock(folder):
     """An icosahedron with its corners pulled about, as OBJ and as binary PLY."""
     g = (1 + 5**0.5) / 2
@@ -167,6 +183,8 @@ def compare(photonlab, name, folder):
     path = folder / f"{name}.xml"
     if name in SENSORS:
         path.write_text(courtyard(LAMPS["spot"]).replace('<sensor type="perspective">', SENSORS[name]))
+    elif name in MEDIA:
+        path.write_text(room("", MEDIA[name]).replace('integrator type="path"', 'integrator type="volpath"'))
     elif name in SHAPES:
         path.write_text(room("", SHAPES[name]))
     else:
@@ -205,5 +223,5 @@ if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as folder:
         write_sky(Path(folder) / "sky.exr")
         write_rock(Path(folder))
-        for name in arguments[1:] or [*MATERIALS, *SHAPES, *LAMPS, *SENSORS]:
+        for name in arguments[1:] or [*MATERIALS, *SHAPES, *MEDIA, *LAMPS, *SENSORS]:
             compare(arguments[0], name, Path(folder))

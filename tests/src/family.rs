@@ -62,6 +62,9 @@ pub const SUITE: &[(&str, usize)] = &[
     ("coloured sphere", 4),
     ("prism", 14),
     ("dispersive furnace", 2),
+    ("white furnace, media", 18),
+    ("absorbing slab", 3),
+    ("hazy room", 2),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

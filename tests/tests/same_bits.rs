@@ -19,18 +19,30 @@ fn fixed_lines(text: &str) -> String {
     kept.collect::<Vec<_>>().join("\n")
 }
 
+/// A medium and glass that disperses, followed by wavelength.
+const HAZE: &str = r#"<scene version="3.0.0">
+    <medium type="homogeneous" id="haze"><spectrum name="sigma_t" value="360:2, 830:0.5"/><float name="albedo" value="0.9"/></medium>
+    <emitter type="point"><point name="position" x="0.6" y="-0.2" z="0.4"/><ref name="medium" id="haze"/></emitter>
+    <shape type="sphere"><float name="radius" value="0.3"/><ref name="exterior" id="haze"/>
+        <bsdf type="dielectric"><string name="int_ior" value="n-bk7"/></bsdf></shape>
+    <shape type="cube"><boolean name="flip_normals" value="true"/><ref name="exterior" id="haze"/><sensor type="irradiancemeter"/></shape>
+    </scene>"#;
+
 /// Every way of reading, every kind of file, on scenes with colour, glass and lamps of each kind.
 #[test]
 fn one_two_and_seven_threads_give_the_same_bits() {
     let program = program();
     let (cube, sphere) = (scene("cube.xml"), scene("integrating-sphere.xml"));
     let (cornell, lens) = (scene("cornell-box.xml"), scene("ball-lens-lamp.xml"));
+    program.write("haze.xml", HAZE);
     let texts = |threads: u32| {
         [
             format!("measure {cube} --photons 20011 --spp 300"),
             format!("measure {cube} --method nearest --k 30 --photons 20011 --spp 32"),
             format!("measure {sphere} --method radius --direct photons --photons 20011 --spp 300"),
             format!("measure {sphere} --method path --spp 300"),
+            "measure haze.xml --photons 20011 --spp 300 --units photometric".into(),
+            "measure haze.xml --photons 20011 --method bins".into(),
         ]
         .map(|line| fixed_lines(&program.succeed(&format!("{line} --seed 5 --json --threads {threads}"))))
     };

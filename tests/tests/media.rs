@@ -1,0 +1,103 @@
+//! Light in participating media: what no medium loses, what reaches a point through one, and what it sends back.
+
+use std::f64::consts::PI;
+
+use photonlab_measure::welch_test;
+use photonlab_photometry::Response;
+use photonlab_readout::Method;
+use photonlab_tests::{Family, Lab, seed, settings};
+use photonlab_trace::Classes;
+
+const GATHER: Method = Method::FinalGather { radius: None };
+
+/// A ball of a medium in light of radiance 1 from everywhere, with a meter below and rays through it.
+fn furnace(boundary: &str, medium: &str) -> Lab {
+    Lab::new(&format!(
+        r#"<scene version="3.0.0"><emitter type="constant"/>
+        <shape type="sphere"><float name="radius" value="0.5"/>{boundary}
+            <medium type="homogeneous" name="interior">{medium}</medium></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="0.4"/><translate z="-0.7"/></transform>
+            <bsdf type="null"/><sensor type="irradiancemeter" id="below"/></shape>
+        <sensor type="radiancemeter" id="middle"><point name="origin" x="0" y="0" z="3"/><vector name="direction" x="0" y="0" z="-1"/></sensor>
+        </scene>"#
+    ))
+}
+
+/// What loses no light is invisible where all light is even, whatever it does to directions, and whichever surface bounds it.
+#[test]
+fn a_lossless_medium_is_invisible_in_even_light() {
+    let mut family = Family::new("white furnace, media");
+    let hg = |g: f64| format!(r#"<phase type="hg"><float name="g" value="{g}"/></phase>"#);
+    for (name, boundary, phase) in [
+        ("even", r#"<bsdf type="null"/>"#, String::new()),
+        ("forwards, coloured", r#"<bsdf type="null"/>"#, hg(0.8)),
+        ("backwards, in glass", r#"<bsdf type="dielectric"/>"#, hg(-0.4)),
+    ] {
+        let extinction = r#"<rgb name="sigma_t" value="1 3 6"/><float name="albedo" value="1"/>"#;
+        let lab = furnace(boundary, &format!("{extinction}{phase}"));
+        let by_rays = lab.measure::<3>(settings(Method::Path, seed(970)), 1, 24, 8_000);
+        let by_photons =
+            lab.measure_as::<3>(Response::Radiometric, settings(Method::Bins, seed(971)), 400_000, 24, 1 << 10);
+        for channel in [0, 2] {
+            family.mean(format!("{name}, below"), &by_rays.cells[0].value[channel], PI);
+            family.mean(format!("{name}, through"), &by_rays.cells[1].value[channel], 1.0);
+            family.mean(format!("{name}, counted"), &by_photons.cells[0].value[channel], PI);
+        }
+    }
+    family.decide();
+}
+
+/// A slab of a coloured medium between a lamp at infinity and a meter: what arrives unscattered is `exp(-sigma d)` and nothing
+/// else, as the medium only absorbs; by rays it is exact, by photons it is counted. (Beer and Lambert; catalogue F1.)
+#[test]
+fn absorption_is_exponential_in_each_channel() {
+    let mut family = Family::new("absorbing slab");
+    let sigma = [0.2, 1.0, 3.0];
+    let lab = Lab::new(
+        r#"<scene version="3.0.0">
+        <emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/></emitter>
+        <shape type="cube"><transform name="to_world"><scale x="3" y="3" z="0.5"/></transform><bsdf type="null"/>
+            <medium type="homogeneous" name="interior"><rgb name="sigma_t" value="0.2 1 3"/><float name="albedo" value="0"/></medium></shape>
+        <shape type="rectangle"><transform name="to_world"><translate z="-1"/></transform>
+            <bsdf type="diffuse"><float name="reflectance" value="0"/></bsdf><sensor type="irradiancemeter"/></shape></scene>"#,
+    );
+    let by_rays = lab.measure::<3>(settings(GATHER, seed(972)), 1000, 16, 256);
+    let by_photons =
+        lab.measure_as::<3>(Response::Radiometric, settings(Method::Bins, seed(973)), 200_000, 16, 1 << 10);
+    for (channel, sigma) in sigma.into_iter().enumerate() {
+        let expected = f64::exp(-sigma);
+        let read = by_rays.cells[0].value[channel].mean().unwrap_or(f64::NAN);
+        assert!((read / expected - 1.0).abs() < 1e-9, "{sigma}: {read} for {expected}");
+        family.mean(format!("counted, {sigma}/m"), &by_photons.cells[0].value[channel], expected);
+    }
+    family.decide();
+}
+
+/// In a closed room full of haze every watt is absorbed by walls or by the haze; by rays, by maps and by counting the walls
+/// read the same, which is what the photons left there.
+#[test]
+fn every_method_reads_the_same_in_a_hazy_room() {
+    let mut family = Family::new("hazy room");
+    let lab = Lab::new(
+        r#"<scene version="3.0.0">
+        <medium type="homogeneous" id="haze"><float name="sigma_t" value="0.8"/><float name="albedo" value="0.9"/>
+            <phase type="hg"><float name="g" value="0.5"/></phase></medium>
+        <emitter type="point"><point name="position" x="0.3" y="-0.2" z="0.4"/><ref name="medium" id="haze"/></emitter>
+        <shape type="cube"><boolean name="flip_normals" value="true"/><ref name="exterior" id="haze"/>
+            <bsdf type="diffuse"><float name="reflectance" value="0.6"/></bsdf><sensor type="irradiancemeter"/></shape></scene>"#,
+    );
+    let counted = lab.measure::<1>(settings(Method::Bins, seed(974)), 400_000, 32, 1 << 10);
+    let walls = &counted.cells[0].value[0];
+    for (name, method) in [("by paths", Method::Path), ("gathered", GATHER)] {
+        let read = lab.measure::<1>(settings(method, seed(975)), 400_000, 32, 1 << 13);
+        let test = welch_test(&read.cells[0].value[0], walls).expect("two sets of passes");
+        family.compare(name, test.p_value, format!("{test:?}"));
+    }
+    let ledger = lab.trace::<1>(100_000, seed(976), 0, Classes::NONE).ledger;
+    let total = ledger.total();
+    assert_eq!(total.escaped[0], 0.0, "the room is closed");
+    let walls: f64 = ledger.surfaces.iter().map(|surface| surface.absorbed[0]).sum();
+    assert!(walls < 0.95 * total.absorbed[0], "the haze takes its part");
+    assert!((total.accounted()[0] / ledger.emitted[0] - 1.0).abs() < 1e-9);
+    family.decide();
+}
