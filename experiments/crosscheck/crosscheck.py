@@ -60,6 +60,43 @@ SENSORS = {
 }
 
 
+# Things in the place of the room's ball and plate.
+SHAPES = {
+    "disk-lamp": '<shape type="disk"><transform name="to_world"><scale x="0.5" y="0.3"/><rotate x="1" angle="60"/><translate x="-0.3" y="0.2"/></transform>'
+    '<emitter type="area"><rgb name="radiance" value="3 5 8"/></emitter></shape>'
+    '<shape type="disk"><transform name="to_world"><scale value="0.5"/><rotate x="1" angle="-70"/><translate x="0.4" y="-0.6"/></transform></shape>',
+    "cylinder-lamp": '<shape type="cylinder"><point name="p0" x="-0.6" y="-0.3" z="0"/><point name="p1" x="0.5" y="0.1" z="0.2"/><float name="radius" value="0.1"/>'
+    '<emitter type="area"><rgb name="radiance" value="6 3 1"/></emitter></shape>',
+    "cylinders": '<shape type="cylinder"><float name="radius" value="0.3"/><transform name="to_world"><rotate x="1" angle="-70"/><translate y="-0.6"/></transform>'
+    '<bsdf type="twosided"><bsdf type="diffuse"><rgb name="reflectance" value="0.2 0.5 0.8"/></bsdf></bsdf></shape>'
+    '<shape type="cylinder"><point name="p0" x="0.3" y="-0.9" z="0.3"/><point name="p1" x="0.7" y="-0.2" z="0.3"/><float name="radius" value="0.2"/>'
+    '<boolean name="flip_normals" value="true"/><bsdf type="conductor"/></shape>',
+    "obj": '<shape type="obj"><string name="filename" value="rock.obj"/><boolean name="face_normals" value="true"/>'
+    '<transform name="to_world"><scale value="0.5"/><rotate x="0.6" y="0.8" angle="40"/><translate x="-0.4" y="-0.4"/></transform>'
+    '<bsdf type="diffuse"><rgb name="reflectance" value="0.3 0.6 0.9"/></bsdf></shape>'
+    '<shape type="ply"><string name="filename" value="rock.ply"/><boolean name="face_normals" value="true"/>'
+    '<transform name="to_world"><scale value="0.3"/><translate x="0.5" y="-0.3"/></transform><bsdf type="dielectric"/></shape>',
+    "obj-lamp": '<shape type="obj"><string name="filename" value="rock.obj"/><boolean name="face_normals" value="true"/>'
+    '<transform name="to_world"><scale value="0.2"/></transform><emitter type="area"><rgb name="radiance" value="9 6 3"/></emitter></shape>',
+}
+
+
+def write_rock(folder):
+    """An icosahedron with its corners pulled about, as OBJ and as binary PLY."""
+    g = (1 + 5**0.5) / 2
+    corners = [(-1, g, 0), (1, g, 0), (-1, -g, 0), (1, -g, 0), (0, -1, g), (0, 1, g), (0, -1, -g), (0, 1, -g), (g, 0, -1), (g, 0, 1), (-g, 0, -1), (-g, 0, 1)]
+    faces = [(0, 11, 5), (0, 5, 1), (0, 1, 7), (0, 7, 10), (0, 10, 11), (1, 5, 9), (5, 11, 4), (11, 10, 2), (10, 7, 6), (7, 1, 8)]
+    faces += [(3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5), (2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    pull = [1 + 0.2 * np.sin(3 * i) for i in range(12)]
+    corners = [tuple(0.55 * pull[i] * x for x in corner) for i, corner in enumerate(corners)]
+    lines = ["v %.9g %.9g %.9g" % corner for corner in corners] + ["f %d %d %d" % tuple(i + 1 for i in face) for face in faces]
+    (folder / "rock.obj").write_text("\n".join(lines) + "\n")
+    header = "ply\nformat binary_little_endian 1.0\nelement vertex 12\nproperty float x\nproperty float y\nproperty float z\n"
+    header += "element face 20\nproperty list uchar int vertex_indices\nend_header\n"
+    body = np.array(corners, "<f4").tobytes() + b"".join(b"\x03" + np.array(face, "<i4").tobytes() for face in faces)
+    (folder / "rock.ply").write_bytes(header.encode() + body)
+
+
 def write_sky(path):
     """A picture without any symmetry: a bright spot, a gradient in both directions, steps."""
     rows, columns = 24, 48
@@ -90,7 +127,7 @@ def courtyard(lamp):
 </scene>"""
 
 
-def room(material):
+def room(material, things=None):
     def wall(transform, colour):
         return (
             f'<shape type="rectangle"><transform name="to_world">{transform}</transform>'
@@ -104,6 +141,9 @@ def room(material):
         wall('<rotate y="1" angle="90"/><translate x="-1"/>', "0.6 0.1 0.1"),
         wall('<rotate y="1" angle="-90"/><translate x="1"/>', "0.1 0.5 0.1"),
     ]
+    things = things or f"""<shape type="sphere"><point name="center" x="-0.45" y="-0.5" z="-0.2"/><float name="radius" value="0.4"/>{material}</shape>
+    <shape type="rectangle"><transform name="to_world"><scale value="0.35"/><rotate x="1" angle="-30"/><rotate y="1" angle="-30"/>
+        <translate x="0.45" y="-0.2" z="0.1"/></transform>{material}</shape>"""
     return f"""<scene version="3.0.0">
     <integrator type="path"><integer name="max_depth" value="-1"/></integrator>
     <sensor type="perspective"><float name="fov" value="40"/>
@@ -114,9 +154,7 @@ def room(material):
     <shape type="rectangle"><transform name="to_world"><rotate x="1" angle="90"/><scale value="0.5"/><translate y="0.98"/></transform>
         <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
         <emitter type="area"><rgb name="radiance" value="8 7 5"/></emitter></shape>
-    <shape type="sphere"><point name="center" x="-0.45" y="-0.5" z="-0.2"/><float name="radius" value="0.4"/>{material}</shape>
-    <shape type="rectangle"><transform name="to_world"><scale value="0.35"/><rotate x="1" angle="-30"/><rotate y="1" angle="-30"/>
-        <translate x="0.45" y="-0.2" z="0.1"/></transform>{material}</shape>
+    {things}
 </scene>"""
 
 
@@ -129,6 +167,8 @@ def compare(photonlab, name, folder):
     path = folder / f"{name}.xml"
     if name in SENSORS:
         path.write_text(courtyard(LAMPS["spot"]).replace('<sensor type="perspective">', SENSORS[name]))
+    elif name in SHAPES:
+        path.write_text(room("", SHAPES[name]))
     else:
         path.write_text(courtyard(LAMPS[name]) if name in LAMPS else room(MATERIALS[name]))
     scene = mi.load_file(str(path))
@@ -164,5 +204,6 @@ if __name__ == "__main__":
     arguments = [a for a in sys.argv[1:] if not a.startswith("--")]
     with tempfile.TemporaryDirectory() as folder:
         write_sky(Path(folder) / "sky.exr")
-        for name in arguments[1:] or [*MATERIALS, *LAMPS, *SENSORS]:
+        write_rock(Path(folder))
+        for name in arguments[1:] or [*MATERIALS, *SHAPES, *LAMPS, *SENSORS]:
             compare(arguments[0], name, Path(folder))

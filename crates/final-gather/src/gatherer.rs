@@ -74,13 +74,18 @@ impl<const C: usize> Gatherer<'_, C> {
             stream.leave_prefix();
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
-            let start = Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps };
+            let start =
+                Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps, medium: sight.medium };
             let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
                 let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(sight.normal));
                 let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
+            }
+            if !landing.scattered.is_zero() {
+                let contribution = Light { irradiance: landing.scattered * PI, ..Light::default() };
+                light.add(&contribution.weighted(weight));
             }
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
@@ -117,7 +122,7 @@ impl<const C: usize> Gatherer<'_, C> {
         if !self.limits.allows(used + 1) {
             return Light::default();
         }
-        let Some(sample) = sample_direct(self.world, &self.optics.lamps, at, sight.normal, xi) else {
+        let Some(sample) = sample_direct(self.world, self.optics, at, sight, xi) else {
             return Light::default();
         };
         let cosine = sample.direction.dot(sight.normal);

@@ -3,7 +3,8 @@
 use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
-    Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, balance_pdf, goes_through, lamp_pdf_solid_angle,
+    Flight, Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, Volume, balance_pdf, goes_through,
+    lamp_pdf_solid_angle, phase_pdf_solid_angle, scatter,
 };
 use photonlab_scene::{Hit, Ray, World};
 
@@ -29,6 +30,8 @@ pub struct Landing<const C: usize> {
     /// Radiance that reached the ray from lamps behind at least one specular surface, lamps seen from rough surfaces
     /// included.
     pub emitted: Colour<C>,
+    /// Radiance that the ray's surroundings scattered into it, and lamps seen from there.
+    pub scattered: Colour<C>,
     /// What the very first surface, or the environment behind no surface, emits towards the ray.
     pub first_emission: Option<Emitted<C>>,
     /// The matte point it ended on, what is seen of it, and the weight of radiance from there.
@@ -63,6 +66,8 @@ pub struct Start {
     pub used: u32,
     /// True if lamps seen behind specular surfaces count: then rough surfaces look for lamps themselves.
     pub seeks_lamps: bool,
+    /// The medium in which it starts.
+    pub medium: Option<u32>,
 }
 
 /// A ray on its way.
@@ -71,12 +76,15 @@ struct Walk<'w, const C: usize> {
     optics: &'w Optics<C>,
     ray: Ray,
     from: Option<u32>,
+    medium: Option<u32>,
     /// Where it was bent last or started: from there lamps would have been drawn. Masks that it passes change nothing.
     seen_from: DVec3,
     weight: Colour<C>,
     /// Density per solid angle with which the last rough surface drew the ray; `None` if it sought no lamp.
     rough_pdf: Option<f64>,
     bent: bool,
+    /// True once a medium has scattered the ray.
+    scattered: bool,
     landing: Landing<C>,
 }
 
@@ -90,6 +98,7 @@ pub fn follow<const C: usize>(
 ) -> Landing<C> {
     let landing = Landing {
         emitted: Colour::ZERO,
+        scattered: Colour::ZERO,
         first_emission: None,
         matte: None,
         segments: start.used,
@@ -101,16 +110,32 @@ pub fn follow<const C: usize>(
         optics,
         ray: start.ray,
         from: start.from,
+        medium: start.medium,
         seen_from: start.ray.origin,
         weight: Colour::ONE,
         rough_pdf: None,
         bent: false,
+        scattered: false,
         landing,
     };
     let mut specular = 0;
     while limits.allows(walk.landing.segments + 1) && specular <= limits.max_specular {
         let reach = if walk.bent { f64::INFINITY } else { start.reach - walk.landing.distance };
-        let Some(hit) = world.cast(&walk.ray, walk.from, reach) else {
+        let hit = world.cast(&walk.ray, walk.from, reach);
+        if let Some(medium) = walk.medium {
+            let reach = hit.map_or(reach, |hit| hit.distance);
+            let volume = optics.volume(medium);
+            let Flight { collision, factor } = volume.fly(walk.weight, reach, stream);
+            walk.weight = walk.weight * factor;
+            if let Some(distance) = collision {
+                if !walk.collide(volume, distance, limits, stream) {
+                    break;
+                }
+                specular = 0;
+                continue;
+            }
+        }
+        let Some(hit) = hit else {
             walk.escape();
             break;
         };
@@ -118,6 +143,7 @@ pub fn follow<const C: usize>(
         let (interaction, opacity) = optics.interaction(world, &hit);
         match if goes_through(opacity, stream) { &Interaction::Passed } else { interaction } {
             Interaction::Passed => {
+                walk.medium = world.medium_beside(hit.point.primitive, !hit.front, walk.medium);
                 walk.ray = Ray::new(hit.point.position, walk.ray.direction);
                 walk.from = Some(hit.point.primitive);
                 continue;
@@ -128,7 +154,8 @@ pub fn follow<const C: usize>(
             }
             Interaction::Matte(matte) => {
                 walk.arrive(&hit);
-                match matte.look(&walk.ray, &hit, stream) {
+                let beside = |front| world.medium_beside(hit.point.primitive, front, walk.medium);
+                match matte.look(&walk.ray, &hit, [beside(hit.front), beside(!hit.front)], stream) {
                     Ok(sight) => {
                         walk.landing.matte = Some((hit, sight, walk.weight));
                         break;
@@ -138,14 +165,14 @@ pub fn follow<const C: usize>(
             }
             Interaction::Followed(followed) => {
                 walk.arrive(&hit);
-                let seeks = start.seeks_lamps && limits.allows(walk.landing.segments + 1);
+                let seeks = (start.seeks_lamps || walk.scattered) && limits.allows(walk.landing.segments + 1);
                 if !walk.go_on(&hit, followed, seeks, stream) {
                     break;
                 }
             }
             Interaction::Dispersed(dispersive) => {
                 walk.arrive(&hit);
-                let seeks = start.seeks_lamps && limits.allows(walk.landing.segments + 1);
+                let seeks = (start.seeks_lamps || walk.scattered) && limits.allows(walk.landing.segments + 1);
                 let (followed, factor) = dispersive.settle(walk.weight, stream);
                 walk.weight = walk.weight * factor;
                 if !walk.go_on(&hit, &followed, seeks, stream) {
@@ -176,6 +203,7 @@ impl<const C: usize> Walk<'_, C> {
             self.behind_specular(radiance, drawn);
         } else {
             let shared_pdf = lamp_pdf_solid_angle(self.world, &self.optics.lamps, primitive, from, to);
+            let radiance = radiance * self.weight;
             self.landing.first_emission = Some(Emitted { radiance, shared_pdf });
         }
     }
@@ -187,6 +215,7 @@ impl<const C: usize> Walk<'_, C> {
         if self.bent {
             self.behind_specular(radiance, self.rough_pdf.map(|pdf| (pdf, drawn)));
         } else {
+            let radiance = radiance * self.weight;
             self.landing.first_emission = Some(Emitted { radiance, shared_pdf: Some(drawn) });
         }
     }
@@ -195,7 +224,7 @@ impl<const C: usize> Walk<'_, C> {
     /// shares the work by both densities.
     fn behind_specular(&mut self, radiance: Colour<C>, pdfs: Option<(f64, f64)>) {
         let balance = pdfs.map_or(1.0, |(pdf, drawn)| pdf / (pdf + drawn));
-        self.landing.emitted += radiance * self.weight * balance;
+        self.find(radiance * self.weight * balance);
     }
 
     /// Draws how the ray goes on, after looking for lamps if it `seeks` any; false if it ends.
@@ -209,9 +238,50 @@ impl<const C: usize> Walk<'_, C> {
         true
     }
 
+    /// Counts light found behind a specular surface or in a medium.
+    fn find(&mut self, radiance: Colour<C>) {
+        if self.scattered {
+            self.landing.scattered += radiance;
+        } else {
+            self.landing.emitted += radiance;
+        }
+    }
+
+    /// Meets the matter of a medium: looks for a lamp, and goes on where the light came from; false if the ray ends.
+    ///
+    /// The lamp drawn and the lamp that the ray meets next share the work by the balance heuristic (Veach and Guibas 1995).
+    fn collide(&mut self, volume: &Volume<C>, distance: f64, limits: &EyeLimits, stream: &mut Stream) -> bool {
+        let at = self.ray.at(distance);
+        self.landing.segments += 1;
+        self.landing.distance += distance;
+        (self.scattered, self.bent, self.landing.met_rough) = (true, true, true);
+        let before = self.weight.max();
+        self.weight = self.weight * volume.albedo;
+        let survival = (self.weight.max() / before).min(1.0);
+        if !limits.allows(self.landing.segments + 1) || survival <= 0.0 || stream.next() >= survival {
+            return false;
+        }
+        self.weight = self.weight * (1.0 / survival);
+        let xi = [stream.next(), stream.next(), stream.next()];
+        if let Some(draw) = LightDraw::new(self.world, &self.optics.lamps, at, xi) {
+            let phase = phase_pdf_solid_angle(volume.phase, draw.direction.dot(self.ray.direction));
+            let pdf = draw.pdf_solid_angle;
+            let balance = if pdf > 0.0 { pdf / (pdf + phase) } else { 1.0 };
+            let reaches = draw.reaches(self.world, self.optics, at, None, self.medium);
+            self.find(self.weight * draw.radiance_over_pdf * reaches * (phase * balance));
+        }
+        // Seen from the eye, light that goes on along the reversed ray came from the direction that is drawn here.
+        let direction = scatter(volume.phase, self.ray.direction, stream);
+        self.rough_pdf = Some(phase_pdf_solid_angle(volume.phase, direction.dot(self.ray.direction)));
+        (self.ray, self.from, self.seen_from) = (Ray::new(at, direction), None, at);
+        true
+    }
+
     /// Goes on along another ray.
     fn turn(&mut self, hit: &Hit, ray: Ray, share: Colour<C>, rough_pdf: Option<f64>) {
         self.weight = self.weight * share;
+        let front = ray.direction.dot(hit.point.normal) > 0.0;
+        self.medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
         self.seen_from = ray.origin;
         self.ray = ray;
         self.from = Some(hit.point.primitive);
@@ -231,7 +301,10 @@ impl<const C: usize> Walk<'_, C> {
         }
         let balance =
             if draw.pdf_solid_angle > 0.0 { draw.pdf_solid_angle / (draw.pdf_solid_angle + pdf) } else { 1.0 };
-        let reaches = draw.reaches(self.world, &hit.point);
-        self.landing.emitted += self.weight * shown * draw.radiance_over_pdf * (balance * reaches);
+        let front = draw.direction.dot(hit.point.normal) > 0.0;
+        let medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
+        let at = hit.point.position;
+        let reaches = draw.reaches(self.world, self.optics, at, Some(hit.point.primitive), medium);
+        self.find(self.weight * shown * draw.radiance_over_pdf * reaches * balance);
     }
 }

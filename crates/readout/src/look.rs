@@ -63,9 +63,11 @@ impl<const C: usize> Look<'_, C> {
             Target::Patch { shape, film, .. } => {
                 let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
                 let share = self.shares[number];
+                let surrounding = self.world.scene.sensors[cell.sensor].medium;
+                let medium = self.world.medium_beside(point.primitive, true, surrounding);
                 let seed = Seed { first, sample, shift, share };
                 return Sample {
-                    light: self.irradiance(&point, Sight::meter(point.normal), 0, seed, scratch),
+                    light: self.irradiance(&point, Sight::meter(point.normal, medium), 0, seed, scratch),
                     dark: false,
                 };
             }
@@ -75,9 +77,11 @@ impl<const C: usize> Look<'_, C> {
             }
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y], [z, last]),
         };
-        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true };
+        let medium = self.world.scene.sensors[cell.sensor].medium;
+        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
-        let emitted = landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
+        let emitted =
+            landing.emitted + landing.scattered + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
         let mut light = Light { irradiance: emitted, ..Light::default() };
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {
@@ -129,7 +133,7 @@ impl<const C: usize> Look<'_, C> {
                     let mut one = self.read_map(at, &sight, used, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
-                        let direct = sample_direct(self.world, &self.optics.lamps, at, sight.normal, xi);
+                        let direct = sample_direct(self.world, self.optics, at, &sight, xi);
                         one.irradiance += direct.map_or(Colour::ZERO, |d| {
                             let weight = sight.weight(d.direction.dot(sight.normal));
                             d.irradiance * (weight / (1.0 + seed.share * d.point_factor))

@@ -34,6 +34,10 @@ fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 
 /// True if a point lamp is so near that rays from it could carry more than a trifle of what a cell of the shape gets by its
 /// own points. Farther away the points alone are good, and the rare rays that met a cell would only add rare jumps.
 fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize, size: [u32; 2]) -> bool {
+    // Such rays know nothing of media.
+    if !world.scene.media.is_empty() {
+        return false;
+    }
     let cells = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| [column, row]));
     let share = cells.map(|cell| share_of(world, shape, cell, size)).fold(0.0, f64::max);
     lamps.lamps.iter().any(|lamp| match &lamp.kind {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Ball, Primitive, Ray, Surface, SurfacePoint, World};
 
-use crate::{LampKind, Lamps, pattern, spherical_rectangle::SphericalRectangle, warp};
+use crate::{LampKind, Lamps, Optics, Sight, pattern, spherical_rectangle::SphericalRectangle, warp};
 
 /// One point of a lamp, drawn; whether it is seen is not known yet.
 #[derive(Clone, Copy, Debug)]
@@ -122,9 +122,17 @@ impl<const C: usize> LightDraw<C> {
         })
     }
 
-    /// The share of the light that reaches a surface point: 0 where something stands between, less than 1 behind masks.
-    pub fn reaches(&self, world: &World, point: &SurfacePoint) -> f64 {
-        world.unblocked(&Ray::new(point.position, self.direction), Some(point.primitive), self.distance, self.on)
+    /// The share of the light that reaches a point on a primitive or in the open, in a medium: 0 where something stands
+    /// between, less than 1 behind masks and in media.
+    pub fn reaches(
+        &self,
+        world: &World,
+        optics: &Optics<C>,
+        position: DVec3,
+        on: Option<u32>,
+        medium: Option<u32>,
+    ) -> Colour<C> {
+        optics.passes(world, &Ray::new(position, self.direction), on, medium, self.distance, self.on)
     }
 }
 
@@ -144,24 +152,25 @@ pub struct DirectSample<const C: usize> {
     pub point_factor: f64,
 }
 
-/// Draws one lamp and one point of it, from three numbers, as seen from a point on the side of `normal`.
+/// Draws one lamp and one point of it, from three numbers, as seen from a point by `sight`.
 /// `None` if what was drawn does not light that side or is hidden.
 pub fn sample_direct<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     point: &SurfacePoint,
-    normal: DVec3,
+    sight: &Sight<C>,
     xi: [f64; 3],
 ) -> Option<DirectSample<C>> {
-    let draw = LightDraw::new(world, lamps, point.position, xi)?;
+    let (normal, medium) = (sight.normal, sight.medium);
+    let draw = LightDraw::new(world, &optics.lamps, point.position, xi)?;
     let cosine = draw.direction.dot(normal);
     if cosine <= 0.0 {
         return None;
     }
-    let reaches = draw.reaches(world, point);
-    (reaches > 0.0).then(|| DirectSample {
+    let reaches = draw.reaches(world, optics, point.position, Some(point.primitive), medium);
+    (!reaches.is_zero()).then(|| DirectSample {
         direction: draw.direction,
-        irradiance: draw.radiance_over_pdf * (cosine * reaches),
+        irradiance: draw.radiance_over_pdf * reaches * cosine,
         pdf_solid_angle: if draw.alone { 0.0 } else { draw.pdf_solid_angle },
         point_factor: if draw.point_emission > 0.0 {
             draw.point_emission * cosine / (draw.distance * draw.distance)

@@ -15,6 +15,8 @@ pub struct Lamp<const C: usize> {
     pub id: String,
     /// Geometry and emission.
     pub kind: LampKind<C>,
+    /// The medium into which it shines, if any.
+    pub medium: Option<u32>,
     /// Total flux in W or lm; of a directional lamp, the flux through its window.
     pub flux: Colour<C>,
 }

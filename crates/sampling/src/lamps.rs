@@ -44,13 +44,15 @@ impl<const C: usize> Lamps<C> {
             let id = || shape.id.clone();
             if let Geometry::Mesh(_) = shape.geometry {
                 let kind = LampKind::Faces { shape: index, radiance, area };
-                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
+                let medium = world.medium_beside(world.primitives_of(index).start, true, None);
+                lamps.push(Lamp { id: id(), kind, medium, flux: radiance * (PI * area) });
                 continue;
             }
             for primitive in world.primitives_of(index) {
                 let area = world.primitives[primitive as usize].surface.area();
                 let kind = LampKind::Area { primitive, radiance, area };
-                lamps.push(Lamp { id: id(), kind, flux: radiance * (PI * area) });
+                let medium = world.medium_beside(world.primitives_of(index).start, true, None);
+                lamps.push(Lamp { id: id(), kind, medium, flux: radiance * (PI * area) });
             }
         }
         let mut of_primitive = vec![None; world.primitives.len()];
@@ -139,10 +141,10 @@ impl<const C: usize> Lamps<C> {
 /// The lamp of an emitter; of an environment, with one for each portal.
 fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palette<C>) -> Vec<Lamp<C>> {
     vec![match emitter {
-        Emitter::Point { id, position, intensity, pattern } => {
+        Emitter::Point { id, position, intensity, pattern, medium } => {
             let intensity = palette.emission(intensity);
             let kind = LampKind::Point { position: *position, intensity, pattern: pattern.clone() };
-            Lamp { id: id.clone(), kind, flux: intensity * pattern::integral(pattern) }
+            Lamp { id: id.clone(), kind, medium: *medium, flux: intensity * pattern::integral(pattern) }
         }
         Emitter::Environment { id, light, portals } => {
             let environment = Arc::new(Environment::new(light, palette));
@@ -153,7 +155,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
             let mut lamps = through_portals(world, &environment, &primitives);
             let (centre, portals) = (0.5 * (low + high), primitives);
             let kind = LampKind::Environment { environment, centre, radius, portals };
-            lamps.push(Lamp { id: id.clone(), kind, flux });
+            lamps.push(Lamp { id: id.clone(), kind, medium: None, flux });
             return lamps;
         }
         Emitter::Directional { id, direction, irradiance } => {
@@ -161,7 +163,7 @@ fn surfaceless<const C: usize>(world: &World, emitter: &Emitter, palette: &Palet
             let (corner, sides) = covering_window(world.bounds(), *direction);
             let area = sides[0].cross(sides[1]).length();
             let kind = LampKind::Directional { direction: *direction, irradiance, corner, sides };
-            Lamp { id: id.clone(), kind, flux: irradiance * area }
+            Lamp { id: id.clone(), kind, medium: None, flux: irradiance * area }
         }
     }]
 }
@@ -177,7 +179,7 @@ fn through_portals<const C: usize>(
         let portal = Arc::new(Portal::new(environment, normal));
         let flux = portal.irradiance * surface.area();
         let kind = LampKind::Portal { primitive, portal, earlier: primitives[..place].into() };
-        Lamp { id: world.shape_of(primitive).id.clone(), kind, flux }
+        Lamp { id: world.shape_of(primitive).id.clone(), kind, medium: None, flux }
     };
     primitives.iter().enumerate().map(lamp).collect()
 }

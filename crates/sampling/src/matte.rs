@@ -35,14 +35,16 @@ pub struct Sight<const C: usize> {
     pub normal: DVec3,
     /// Reflectance or transmittance, what was drawn against divided out.
     pub factor: Colour<C>,
+    /// The medium on that side; index into [`Scene::media`](photonlab_scene::Scene::media).
+    pub medium: Option<u32>,
     /// Relative index of the coat that light passes on its way in, and the reciprocal of its share of diffuse light.
     coat: Option<(f64, f64)>,
 }
 
 impl<const C: usize> Sight<C> {
     /// A meter: all light counts alike.
-    pub fn meter(normal: DVec3) -> Self {
-        Self { normal, factor: Colour::ONE, coat: None }
+    pub fn meter(normal: DVec3, medium: Option<u32>) -> Self {
+        Self { normal, factor: Colour::ONE, medium, coat: None }
     }
 
     /// Weight of light that arrives under a cosine: the share that passes the coat, over its mean for diffuse light.
@@ -134,8 +136,15 @@ impl<const C: usize> Matte<C> {
         Ray::new(hit.point.position, (ray.direction + 2.0 * cosine * normal).normalize())
     }
 
-    /// What an eye that looks along a ray sees: the coat's reflection, which goes on, or light of one side of the body.
-    pub fn look(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Result<Sight<C>, Colour<C>> {
+    /// What an eye that looks along a ray sees: the coat's reflection, which goes on, or light of one side of the body. The
+    /// media on the eye's side and on the other are given.
+    pub fn look(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        media: [Option<u32>; 2],
+        stream: &mut Stream,
+    ) -> Result<Sight<C>, Colour<C>> {
         let normal = hit.facing_normal();
         let cosine = -ray.direction.dot(normal);
         if let Some(coat) = &self.coat
@@ -148,6 +157,7 @@ impl<const C: usize> Matte<C> {
         Ok(Sight {
             normal: if crosses { -normal } else { normal },
             factor: (self.reflectance + self.transmittance) * factor,
+            medium: media[usize::from(crosses)],
             coat,
         })
     }

@@ -1,9 +1,9 @@
 //! What a scene does to light, in the channels in which it is followed.
 
 use photonlab_photometry::{Colour, Palette};
-use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, World};
+use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, World};
 
-use crate::{Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular};
+use crate::{Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular, Volume};
 
 /// Lamps and coatings in `C` channels: of a scene, or of one pass where wavelengths are drawn for each.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Optics<const C: usize> {
     pub lamps: Lamps<C>,
     /// By shape.
     coatings: Vec<Coating<C>>,
+    /// By medium.
+    volumes: Vec<Volume<C>>,
 }
 
 /// What a shape does to light on either side.
@@ -29,7 +31,45 @@ impl<const C: usize> Optics<C> {
     /// Of a scene whose channels the palette fits.
     pub fn new(world: &World, palette: Palette<C>) -> Self {
         let coatings = world.scene.shapes.iter().map(|shape| Coating::new(&shape.bsdf, &palette)).collect();
-        Self { lamps: Lamps::new(world, &palette), coatings, palette }
+        let volumes = world.scene.media.iter().map(|medium| Volume::new(medium, &palette)).collect();
+        Self { lamps: Lamps::new(world, &palette), coatings, volumes, palette }
+    }
+
+    /// A medium of the scene.
+    pub fn volume(&self, medium: u32) -> &Volume<C> {
+        &self.volumes[medium as usize]
+    }
+
+    /// The share of light that passes from the start of a ray, on the primitive `from` and in a medium, to a point at a distance
+    /// on `to`: what surfaces and media between leave of it.
+    pub fn passes(
+        &self,
+        world: &World,
+        ray: &Ray,
+        from: Option<u32>,
+        medium: Option<u32>,
+        distance: f64,
+        to: Option<u32>,
+    ) -> Colour<C> {
+        if self.volumes.is_empty() {
+            return Colour::splat(world.unblocked(ray, from, distance, to));
+        }
+        let (mut share, mut rest, mut ray, mut from, mut medium) = (Colour::ONE, distance, *ray, from, medium);
+        loop {
+            let hit = world.cast(&ray, from, rest).filter(|hit| Some(hit.point.primitive) != to);
+            let flown = hit.map_or(rest, |hit| hit.distance);
+            if let Some(medium) = medium {
+                share = share * self.volume(medium).transmittance(flown);
+            }
+            let Some(hit) = hit else { return share };
+            share = share * world.openness(hit.point.primitive);
+            if share.is_zero() {
+                return share;
+            }
+            medium = world.medium_beside(hit.point.primitive, !hit.front, medium);
+            rest -= flown;
+            (ray, from) = (Ray::new(hit.point.position, ray.direction), Some(hit.point.primitive));
+        }
     }
 
     /// What happens at a hit to the light that meets the surface, and the share of light that does: what a mask leaves open

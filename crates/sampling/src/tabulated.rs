@@ -115,9 +115,11 @@ mod tests {
             position: 2.0 * DVec3::Z,
             intensity: Spectrum::Uniform(intensity),
             pattern,
+            medium: None,
         };
         let (shapes, sensors, notes) = (vec![], vec![], vec![]);
-        let world = World::new(Scene { shapes, emitters: vec![emitter], sensors, max_depth: None, notes });
+        let world =
+            World::new(Scene { shapes, emitters: vec![emitter], sensors, media: Vec::new(), max_depth: None, notes });
         let lamps = Lamps::new(&world, &Palette::Channels);
         (world, lamps)
     }

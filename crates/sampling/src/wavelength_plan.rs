@@ -109,8 +109,16 @@ mod tests {
             position: glam::DVec3::ZERO,
             intensity,
             pattern: photonlab_scene::Pattern::Isotropic,
+            medium: None,
         };
-        let scene = Scene { shapes: vec![], emitters: vec![lamp], sensors: vec![], max_depth: None, notes: vec![] };
+        let scene = Scene {
+            shapes: vec![],
+            emitters: vec![lamp],
+            sensors: vec![],
+            max_depth: None,
+            notes: vec![],
+            media: vec![],
+        };
         WavelengthPlan::new(&scene, response).unwrap()
     }
 

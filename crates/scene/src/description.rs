@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 use photonlab_photometry::{Channels, Spectrum, UnitSystem, VISIBLE};
 
-use crate::{Bsdf, Emitter, EnvironmentLight, Frame, Mesh, Sensor};
+use crate::{Boundary, Bsdf, Emitter, EnvironmentLight, Frame, Medium, Mesh, Sensor};
 
 /// A whole scene: the promise of the door "file -> scene" is that nothing of the file was ignored in silence.
 #[derive(Clone, Debug)]
@@ -14,6 +14,8 @@ pub struct Scene {
     pub shapes: Vec<Shape>,
     /// Lamps that are not shapes: point and directional. Area lamps are in [`Shape::radiance`].
     pub emitters: Vec<Emitter>,
+    /// Media in the order of the file.
+    pub media: Vec<Medium>,
     /// Sensors in the order of the file.
     pub sensors: Vec<Sensor>,
     /// Longest light path in segments, from the file's integrator (Mitsuba's `max_depth`); `None` is unlimited.
@@ -33,6 +35,8 @@ pub struct Shape {
     pub flip_normals: bool,
     /// What happens to light there.
     pub bsdf: Bsdf,
+    /// The media that it parts, if it parts any.
+    pub boundary: Option<Boundary>,
     /// Emitted radiance of the front side, W/(m^2 sr) or cd/m^2, if it is an area lamp.
     pub radiance: Option<Spectrum>,
 }
@@ -82,7 +86,9 @@ impl Scene {
     /// One channel if every colour in the scene is grey, else three; wavelengths if anything is given by wavelength or
     /// refracts by it.
     pub fn channels(&self) -> Channels {
-        let spectra = || self.emissions().into_iter().chain(self.shapes.iter().flat_map(|shape| shape.bsdf.spectra()));
+        let media = || self.media.iter().flat_map(|medium| [&medium.sigma_t, &medium.albedo]);
+        let surfaces = || self.shapes.iter().flat_map(|shape| shape.bsdf.spectra());
+        let spectra = || self.emissions().into_iter().chain(surfaces()).chain(media());
         let map_is_grey = self.emitters.iter().all(|emitter| match emitter {
             Emitter::Environment { light: EnvironmentLight::Map(map), .. } => map.is_grey(),
             _ => true,

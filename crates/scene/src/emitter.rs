@@ -22,6 +22,8 @@ pub enum Emitter {
         intensity: Spectrum,
         /// How the intensity depends on direction.
         pattern: Pattern,
+        /// The medium in which it stands; index into [`Scene::media`](crate::Scene::media).
+        medium: Option<u32>,
     },
     /// Parallel light from infinity.
     Directional {

@@ -67,7 +67,10 @@ impl Needs {
                 "no light that a surface reflects diffusely can reach a surface that is read",
             ),
         }
-        needs.leave_out("volume map", "the scene has no medium");
+        match scene.media.first() {
+            Some(medium) => needs.model("free paths", &format!("`{}` lets light pass only in part", medium.id)),
+            None => needs.leave_out("free paths", "the scene has no medium"),
+        }
         needs
     }
 
@@ -96,8 +99,11 @@ fn first_specular(scene: &Scene) -> Option<&str> {
     scene.shapes.iter().find(|shape| shape.bsdf.is_specular()).map(|shape| shape.id.as_str())
 }
 
-/// Why diffusely reflected light can reach a surface that is read, if it can.
+/// Why light that was scattered in all directions can reach a surface that is read, if it can.
 fn indirect_reason(scene: &Scene) -> Option<String> {
+    if let Some(medium) = scene.media.iter().find(|medium| medium.scatters()) {
+        return Some(format!("`{}` scatters light, which can reach any surface", medium.id));
+    }
     let reflecting: Vec<usize> =
         (0..scene.shapes.len()).filter(|&index| scene.shapes[index].bsdf.is_diffuse()).collect();
     let &first = reflecting.first()?;

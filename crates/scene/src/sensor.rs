@@ -11,6 +11,8 @@ pub struct Sensor {
     pub receiver: Receiver,
     /// Its cells.
     pub film: Film,
+    /// The medium in which it stands, where no shape tells; index into [`Scene::media`](crate::Scene::media).
+    pub medium: Option<u32>,
 }
 
 /// The kinds of receiver.

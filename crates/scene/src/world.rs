@@ -6,6 +6,7 @@ use crate::{
     accelerator::{Accelerator, whole},
     bsdf::Bsdf,
     description::{Scene, Shape},
+    medium::Boundary,
     mesh::SAME_SURFACE,
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
     ray::Ray,
@@ -55,7 +56,10 @@ impl World {
                 metered[shape] = true;
             }
         }
-        let is_inert = |shape: usize| scene.shapes[shape].bsdf == Bsdf::Null && !metered[shape];
+        let is_inert = |shape: usize| {
+            let Shape { bsdf, boundary, .. } = &scene.shapes[shape];
+            *bsdf == Bsdf::Null && boundary.is_none() && !metered[shape]
+        };
         let inert = primitives.iter().map(|p| is_inert(p.shape as usize)).collect();
         Self {
             scene,
@@ -123,6 +127,20 @@ impl World {
         self.metered[self.primitives[primitive as usize].shape as usize]
     }
 
+    /// The medium beyond a primitive on the side of its normal, or on its back, where light came from or is in `current`.
+    pub fn medium_beside(&self, primitive: u32, front: bool, current: Option<u32>) -> Option<u32> {
+        match self.shape_of(primitive).boundary {
+            Some(Boundary { interior, exterior }) => {
+                if front {
+                    exterior
+                } else {
+                    interior
+                }
+            }
+            None => current,
+        }
+    }
+
     /// The nearest surface along a ray that starts on `from` (or on no surface), up to a distance.
     pub fn cast(&self, ray: &Ray, from: Option<u32>, limit: f64) -> Option<Hit> {
         let t_min = NEAREST * ray.origin.abs().max_element();
@@ -187,7 +205,7 @@ impl World {
     }
 
     /// Share of light that goes through a primitive as if it were not there.
-    fn openness(&self, primitive: u32) -> f64 {
+    pub fn openness(&self, primitive: u32) -> f64 {
         match self.shape_of(primitive).bsdf {
             Bsdf::Mask { opacity, .. } => 1.0 - opacity,
             Bsdf::Null => 1.0,

@@ -39,11 +39,12 @@ fn shape(geometry: Geometry, flip_normals: bool) -> Shape {
         flip_normals,
         bsdf: Bsdf::Diffuse { reflectance: Spectrum::Uniform(0.5) },
         radiance: None,
+        boundary: None,
     }
 }
 
 fn world(shapes: Vec<Shape>) -> World {
-    World::new(Scene { shapes, emitters: vec![], sensors: vec![], max_depth: None, notes: vec![] })
+    World::new(Scene { shapes, emitters: vec![], sensors: vec![], media: vec![], max_depth: None, notes: vec![] })
 }
 
 fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> {

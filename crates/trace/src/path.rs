@@ -1,7 +1,9 @@
 //! One photon's path.
 
 use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
-use photonlab_sampling::{EmissionPlan, Followed, Interaction, Matte, Optics, Purpose, Stream, goes_through};
+use photonlab_sampling::{
+    EmissionPlan, Flight, Followed, Interaction, Matte, Optics, Purpose, Stream, Volume, goes_through, scatter,
+};
 use photonlab_scene::{Hit, Ray, World};
 
 use crate::{Job, SurfaceBook, Traced, counter::Witness, ledger::Book};
@@ -58,11 +60,11 @@ impl Default for Limits {
 pub enum TraceError {
     /// A closed scene that absorbs nothing has no steady state.
     #[error(
-        "a path lost no light over {LOSSLESS} diffuse interactions (the last on `{shape}`): light in this scene has no \
+        "a path lost no light over {LOSSLESS} diffuse interactions (the last in or on `{shape}`): light in this scene has no \
          steady state; lower a reflectance below 1, or limit the path with --max-depth"
     )]
     Lossless {
-        /// The shape it was on.
+        /// The shape it was on, or the medium it was in.
         shape: String,
     },
 }
@@ -73,6 +75,8 @@ const LOSSLESS: u32 = 1_000_000;
 struct Walk<'w, const C: usize> {
     ray: Ray,
     from: Option<u32>,
+    /// What the ray flies through.
+    medium: Option<u32>,
     flux: Colour<C>,
     class: PathClass,
     segments: u32,
@@ -110,6 +114,7 @@ pub(crate) fn follow<const C: usize>(
     let mut walk = Walk {
         ray: emission.ray,
         from: emission.from,
+        medium: optics.lamps.lamps[lamp].medium,
         flux,
         class: PathClass::Direct,
         segments: 0,
@@ -120,7 +125,11 @@ pub(crate) fn follow<const C: usize>(
     };
     while let Fate::GoesOn = walk.step(job, &mut stream, out, witness) {
         if walk.lossless_run >= LOSSLESS {
-            let shape = world.shape_of(walk.from.unwrap_or(0)).id.clone();
+            let shape = match (walk.from, walk.medium) {
+                (Some(primitive), _) => world.shape_of(primitive).id.clone(),
+                (None, Some(medium)) => world.scene.media[medium as usize].id.clone(),
+                (None, None) => String::new(),
+            };
             return Err(TraceError::Lossless { shape });
         }
     }
@@ -134,7 +143,16 @@ impl<const C: usize> Walk<'_, C> {
             self.book(out).cut_off += self.flux;
             return Fate::Ended;
         }
-        let Some(hit) = self.world.cast(&self.ray, self.from, f64::INFINITY) else {
+        let hit = self.world.cast(&self.ray, self.from, f64::INFINITY);
+        if let Some(medium) = self.medium {
+            let reach = hit.map_or(f64::INFINITY, |hit| hit.distance);
+            let Flight { collision, factor } = self.optics.volume(medium).fly(self.flux, reach, stream);
+            self.reweight(factor, out);
+            if let Some(distance) = collision {
+                return self.collide(self.optics.volume(medium), distance, stream, out);
+            }
+        }
+        let Some(hit) = hit else {
             self.book(out).escaped += self.flux;
             witness.left(self.ray.direction, self.flux);
             return Fate::Ended;
@@ -146,6 +164,7 @@ impl<const C: usize> Walk<'_, C> {
             self.store(&hit, self.segments + 1, job, out);
         }
         if matches!(interaction, Interaction::Passed) || goes_through(opacity, stream) {
+            self.medium = self.world.medium_beside(hit.point.primitive, !hit.front, self.medium);
             self.ray = Ray::new(hit.point.position, self.ray.direction);
             return Fate::GoesOn;
         }
@@ -284,8 +303,28 @@ impl<const C: usize> Walk<'_, C> {
         Fate::GoesOn
     }
 
+    /// Meets the matter of a medium, which absorbs a part and scatters the rest.
+    fn collide(&mut self, volume: &Volume<C>, distance: f64, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        self.segments += 1;
+        self.class = PathClass::Indirect;
+        self.specular_run = 0;
+        self.lossless_run = if volume.albedo == Colour::ONE { self.lossless_run + 1 } else { 0 };
+        let before = self.flux.max();
+        let kept = self.flux * volume.albedo;
+        self.book(out).absorbed += self.flux - kept;
+        self.flux = kept;
+        if let Fate::Ended = self.roulette(self.flux.max() / before, stream, out) {
+            return Fate::Ended;
+        }
+        let direction = scatter(volume.phase, self.ray.direction, stream);
+        (self.ray, self.from) = (Ray::new(self.ray.at(distance), direction), None);
+        Fate::GoesOn
+    }
+
     fn leave(&mut self, hit: &Hit, ray: Ray, out: &mut Traced<C>) {
         self.surface(hit, out).outgoing += self.flux;
+        let front = ray.direction.dot(hit.point.normal) > 0.0;
+        self.medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
         self.ray = ray;
     }
 

@@ -9,6 +9,7 @@ use super::element::Element;
 use super::environment::environment;
 use super::error::SceneError;
 use super::luminaire::luminaire;
+use super::medium::surrounding;
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -17,8 +18,9 @@ use super::transform::unit;
 
 /// Reads a lamp that stands by itself and adds it to the scene.
 pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
-    let object = Object::open(element)?;
+    let mut object = Object::open(element)?;
     plugins::check(&object)?;
+    let medium = surrounding(&mut object, builder)?;
     let id = builder.id(element, "emitter", builder.scene.emitters.len())?;
     let emitter = match object.plugin {
         "point" => point(object, id, builder)?,
@@ -36,6 +38,15 @@ pub(super) fn emitter<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Re
         }
         _ => {
             return Err(element.error("an area lamp outside a shape", "put it into the shape that shines"));
+        }
+    };
+    let emitter = match (emitter, medium) {
+        (Emitter::Point { id, position, intensity, pattern, .. }, medium) => {
+            Emitter::Point { id, position, intensity, pattern, medium }
+        }
+        (emitter, None) => emitter,
+        (_, Some(_)) => {
+            return Err(element.error("a lamp from infinity in a medium", "only lamps at a point stand in one"));
         }
     };
     builder.scene.emitters.push(emitter);
@@ -63,7 +74,7 @@ fn point(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitte
     let intensity = emission(&mut object, "intensity", builder)?;
     let pattern = cosine_power(&mut object)?.unwrap_or(Pattern::Isotropic);
     object.close(&[])?;
-    Ok(Emitter::Point { id, position, intensity, pattern })
+    Ok(Emitter::Point { id, position, intensity, pattern, medium: None })
 }
 
 /// The extension of `point` by which its intensity is a power of the cosine to `direction`.
@@ -94,7 +105,7 @@ fn spot(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter
     object.close(&["texture"])?;
     let axis = to_world.matrix3.z_axis.normalize();
     let pattern = Pattern::Spot { axis, beam: beam.to_radians(), cutoff: cutoff.to_radians() };
-    Ok(Emitter::Point { id, position: to_world.translation, intensity, pattern })
+    Ok(Emitter::Point { id, position: to_world.translation, intensity, pattern, medium: None })
 }
 
 fn directional(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter, SceneError> {

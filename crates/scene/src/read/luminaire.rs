@@ -63,7 +63,7 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
     let brightest = |fault: Fault| element.error(format!("its brightest intensity {}", fault.what), fault.mend);
     Range::EMISSION.check(intensity.max()).map_err(brightest)?;
     let position = given.or(placed.map(|transform| transform.translation)).unwrap_or(DVec3::ZERO);
-    Ok(Emitter::Point { id, position, intensity, pattern: Pattern::Table { table, to_world } })
+    Ok(Emitter::Point { id, position, intensity, pattern: Pattern::Table { table, to_world }, medium: None })
 }
 
 /// The shortest turn of the nadir to a unit vector.

@@ -20,6 +20,7 @@ mod integrator;
 mod load;
 mod lumens;
 mod luminaire;
+mod medium;
 mod mesh;
 mod metal;
 mod names;

@@ -35,6 +35,10 @@ impl Range {
     pub(super) const CUTOFF: Range = Range { low: 1e-3, high: 180.0, says: "within [0.001, 180]" };
     /// The spread of microfacets' slopes.
     pub(super) const ROUGHNESS: Range = Range { low: 1e-4, high: 10.0, says: "within [0.0001, 10]" };
+    /// Extinguished share per metre.
+    pub(super) const EXTINCTION: Range = Range { low: 0.0, high: LONGEST, says: "not negative and at most 1e15" };
+    /// Mean cosine of a phase function.
+    pub(super) const ANISOTROPY: Range = Range { low: -0.999, high: 0.999, says: "within [-0.999, 0.999]" };
     /// A refractive index.
     pub(super) const INDEX: Range = Range { low: 1.0, high: 100.0, says: "within [1, 100]" };
 

@@ -75,6 +75,11 @@ const SENSORS: Plugins = Plugins {
     foreign: &["batch", "orthographic"],
 };
 
+const MEDIA: Plugins = Plugins { built: &["homogeneous"], later: &[], foreign: &["heterogeneous"] };
+
+const PHASES: Plugins =
+    Plugins { built: &["isotropic", "hg"], later: &[], foreign: &["blendphase", "rayleigh", "sggx", "tabphase"] };
+
 const FILMS: Plugins = Plugins { built: &["hdrfilm"], later: &[], foreign: &["specfilm"] };
 
 const FILTERS: Plugins =
@@ -111,6 +116,8 @@ fn of(tag: &str) -> &'static Plugins {
         "bsdf" => &BSDFS,
         "emitter" => &EMITTERS,
         "sensor" => &SENSORS,
+        "medium" => &MEDIA,
+        "phase" => &PHASES,
         "film" => &FILMS,
         "rfilter" => &FILTERS,
         "sampler" => &SAMPLERS,

@@ -14,6 +14,7 @@ use super::error::{Place, SceneError};
 use super::integrator::integrator;
 use super::load::Loaded;
 use super::lumens::keep_lumens;
+use super::medium::medium;
 use super::names::quote;
 use super::sensor::{Position, sensor};
 use super::shape::shape;
@@ -23,6 +24,8 @@ pub(super) struct Builder<'e> {
     pub(super) scene: Scene,
     /// The bsdfs with an id that were read so far.
     pub(super) bsdfs: HashMap<&'e str, Bsdf>,
+    /// The media with an id that were read so far.
+    pub(super) media: HashMap<&'e str, u32>,
     /// Every id of the whole scene, where it is and of which tag.
     pub(super) ids: &'e HashMap<String, (Place, &'static str)>,
     pub(super) integrator: Option<&'e Element>,
@@ -35,11 +38,18 @@ pub(super) struct Builder<'e> {
 /// Makes the scene that the tree describes.
 pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
     let Loaded { root, ids, notes } = &loaded;
-    let scene =
-        Scene { shapes: Vec::new(), emitters: Vec::new(), sensors: Vec::new(), max_depth: None, notes: notes.clone() };
+    let scene = Scene {
+        shapes: Vec::new(),
+        emitters: Vec::new(),
+        sensors: Vec::new(),
+        media: Vec::new(),
+        max_depth: None,
+        notes: notes.clone(),
+    };
     let mut builder = Builder {
         scene,
         bsdfs: HashMap::new(),
+        media: HashMap::new(),
         ids,
         integrator: None,
         luminaires: HashMap::new(),
@@ -77,13 +87,15 @@ impl<'e> Builder<'e> {
             "shape" => shape(element, self),
             "emitter" => emitter(element, self),
             "bsdf" => bsdf(element, self).map(drop),
+            "medium" => medium(element, self).map(drop),
             "film" | "sampler" => Err(element.error(
                 format!("{} outside a sensor is known but not built yet", element.tag.name),
                 "put it into the sensor that uses it",
             )),
             _ => {
                 let what = format!("{} cannot stand directly inside scene", quote(element.label()));
-                Err(element.error(what, "a scene takes bsdf, default, emitter, include, integrator, sensor, shape"))
+                Err(element
+                    .error(what, "a scene takes bsdf, default, emitter, include, integrator, medium, sensor, shape"))
             }
         }
     }

@@ -11,6 +11,7 @@ use super::environment::rotation;
 use super::error::SceneError;
 use super::film;
 use super::integrator::sampler;
+use super::medium::surrounding;
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -40,6 +41,7 @@ pub(super) fn sensor<'e>(
         sampler(element, builder)?;
     }
     check_shutter(&mut object)?;
+    let medium = surrounding(&mut object, builder)?;
     let (receiver, film) = match (object.plugin, position) {
         ("perspective" | "thinlens", Position::Free) => {
             let film = film.unwrap_or(film::DEFAULT);
@@ -70,7 +72,7 @@ pub(super) fn sensor<'e>(
     };
     object.close(&["srf"])?;
     let id = builder.id(element, "sensor", builder.scene.sensors.len())?;
-    builder.scene.sensors.push(Sensor { id, receiver, film });
+    builder.scene.sensors.push(Sensor { id, receiver, film, medium });
     Ok(())
 }
 

@@ -11,6 +11,7 @@ use super::cylinder::cylinder;
 use super::element::Element;
 use super::emitter::area;
 use super::error::SceneError;
+use super::medium::boundary;
 use super::mesh::mesh;
 use super::number::Range;
 use super::object::Object;
@@ -28,6 +29,7 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     if object.float("silhouette_sampling_weight", Range::ANY)?.is_some() {
         builder.note("silhouette_sampling_weight is for Mitsuba's own sampling and has no effect here");
     }
+    let boundary = boundary(&mut object, builder)?;
     let coating = object.single(&TAGS)?;
     let lamp = object.single(&["emitter"])?;
     let portal = lamp.filter(|lamp| lamp.attribute("type") == Some("portal"));
@@ -50,7 +52,7 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
     let index = builder.scene.shapes.len();
     builder.portals.extend(portal.map(|portal| (portal, index)));
     let id = builder.id(element, "shape", index)?;
-    builder.scene.shapes.push(Shape { id, geometry, flip_normals: flipped != mirrored, bsdf, radiance });
+    builder.scene.shapes.push(Shape { id, geometry, flip_normals: flipped != mirrored, bsdf, boundary, radiance });
     meters.into_iter().try_for_each(|meter| sensor(meter, Position::OnShape(index), builder))
 }
 

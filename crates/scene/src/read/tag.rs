@@ -76,8 +76,8 @@ static TAGS: [Tag; 31] = [
     tag("lookat", Kind::Step, &["origin", "target"], &["up"]),
     tag("matrix", Kind::Step, &["value"], &[]),
     tag("texture", Kind::Later, &[], &[]),
-    tag("medium", Kind::Later, &[], &[]),
-    tag("phase", Kind::Later, &[], &[]),
+    object("medium"),
+    object("phase"),
     tag("volume", Kind::Later, &[], &[]),
     tag("alias", Kind::Later, &[], &[]),
 ];

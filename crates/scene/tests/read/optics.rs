@@ -165,7 +165,8 @@ fn lamps_have_positions_directions_and_strengths() {
             id: "p".to_owned(),
             position: DVec3::X,
             intensity: Spectrum::Uniform(3.0),
-            pattern: Pattern::Isotropic
+            pattern: Pattern::Isotropic,
+            medium: None
         }
     );
     assert_eq!(scene.emitters[1], directional(1, DVec3::NEG_Z, 1.0));
