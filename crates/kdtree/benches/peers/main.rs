@@ -5,7 +5,8 @@
 //! kiddo is measured as compiled here and, by running this bench again with `target-cpu=native` in a target folder of
 //! its own, with native flags; the better of the two is the ratio's. nanoflann is measured where a C++ compiler finds
 //! its header. `PEERS_PHOTONS` sets the photons (1 000 000), `PEERS_ROUNDS` the rounds (3), `PEERS_INSTRUCTIONS`
-//! = `portable` or `avx2` holds our tree back, `PEERS_NATIVE=off` leaves out native kiddo.
+//! = `portable` or `avx2` holds our tree back, `PEERS_NATIVE=off` leaves out native kiddo; `PEERS_THREADS`
+//! = `2` measures instead what a second thread brings.
 
 mod cases;
 mod clock;
@@ -18,6 +19,7 @@ mod ours;
 mod photons;
 mod report;
 mod rules;
+mod threads;
 
 use photonlab_kdtree::{Instructions, SplitRule};
 
@@ -61,6 +63,9 @@ fn main() {
     let sets = photons::sets(count, asked);
     if native::is_child() {
         return native::answer(&sets, rounds);
+    }
+    if let Some(threads) = std::env::var("PEERS_THREADS").ok().and_then(|value| value.parse().ok()) {
+        return threads::compare(&sets, threads);
     }
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     println!("{count} photons, {asked} queries a case, ours with {:?}", instructions());

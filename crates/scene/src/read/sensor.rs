@@ -145,7 +145,8 @@ fn target<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<usize, 
     }
     shape(element, builder)?;
     let index = builder.scene.shapes.len() - 1;
-    builder.scene.shapes[index].bsdf = Bsdf::Null;
+    let target = &mut builder.scene.shapes[index];
+    (target.bsdf, target.boundary) = (Bsdf::Null, None);
     Ok(index)
 }
 

@@ -47,6 +47,11 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
         None if portal.is_some() => Bsdf::Null,
         None => uncoated(radiance.is_some()),
     };
+    if let (Some(portal), true) = (portal, boundary.is_some()) {
+        return Err(
+            portal.error("a portal in a shape that bounds a medium", "put it before that, into a rectangle of its own")
+        );
+    }
     if let (Some(portal), true) = (portal, bsdf != Bsdf::Null) {
         return Err(portal.error("a portal in a coated shape", "take its bsdf out, or make it null"));
     }
