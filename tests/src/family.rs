@@ -66,6 +66,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("white furnace, media", 18),
     ("absorbing slab", 3),
     ("hazy room", 2),
+    ("smooth meshes", 7),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].
