@@ -219,7 +219,7 @@ pub(crate) fn is_drawn_alone(world: &World, primitive: u32) -> bool {
     match &world.primitives[primitive as usize].surface {
         Surface::Parallelogram(face) => face.is_rectangle(),
         Surface::Ball(ball) => !ball.inwards,
-        Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) => false,
+        Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) | Surface::Dish(_) => false,
     }
 }
 
@@ -256,7 +256,7 @@ impl<'w> AreaDraw<'w> {
             Surface::Ball(ball) if ball.inwards => Way::Inside,
             Surface::Ball(ball) => cone_of(ball, from).map_or(Way::Area, Way::Cone),
             Surface::Parallelogram(face) => SphericalRectangle::new(face, from).map_or(Way::Area, Way::Rectangle),
-            Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) => Way::Area,
+            Surface::Disk(_) | Surface::Tube(_) | Surface::Triangle(_) | Surface::Dish(_) => Way::Area,
         };
         Self { surface, world, primitive, from, area, way }
     }

@@ -56,7 +56,9 @@ impl<const C: usize> Optics<C> {
         }
         let (mut share, mut rest, mut ray, mut from, mut medium) = (Colour::ONE, distance, *ray, from, medium);
         loop {
-            let hit = world.cast(&ray, from, rest).filter(|hit| Some(hit.point.primitive) != to);
+            let arrived =
+                |hit: &Hit| Some(hit.point.primitive) == to && world.is_end(hit.point.primitive, hit.distance, rest);
+            let hit = world.cast(&ray, from, rest).filter(|hit| !arrived(hit));
             let flown = hit.map_or(rest, |hit| hit.distance);
             if let Some(medium) = medium {
                 share = share * self.volume(medium).transmittance(flown);

@@ -24,6 +24,11 @@ impl World {
                 let (near, far) = (share(cell[0]), share(cell[0] + 1));
                 disk.point(DVec2::new(disk.u_of_share(near + xi[0] * (far - near)), within(1)))
             }
+            Surface::Dish(dish) => {
+                let share = |column: u32| dish.share_within(f64::from(column) / f64::from(cells[0]));
+                let (near, far) = (share(cell[0]), share(cell[0] + 1));
+                dish.point(DVec2::new(dish.u_of_share(near + xi[0] * (far - near)), within(1)))
+            }
             // A mesh has one cell.
             Surface::Triangle(face) => face.point([xi[0], xi[1]]),
             Surface::Ball(ball) => {
@@ -48,6 +53,10 @@ impl World {
                 let share = |column: u32| disk.share_within(f64::from(column) / columns);
                 disk.area() * (share(column + 1) - share(column)) / rows
             }
+            Surface::Dish(dish) => {
+                let share = |column: u32| dish.share_within(f64::from(column) / columns);
+                dish.area() * (share(column + 1) - share(column)) / rows
+            }
             Surface::Ball(ball) => {
                 ball.area() * 0.5 * (cos_polar(row, cells[1]) - cos_polar(row + 1, cells[1])) / columns
             }
@@ -62,6 +71,7 @@ impl World {
             Surface::Ball(ball) => ball.uv(point.position),
             Surface::Disk(disk) => disk.uv(point.position),
             Surface::Tube(tube) => tube.uv(point.position),
+            Surface::Dish(dish) => dish.uv(point.position),
             Surface::Triangle(_) => DVec2::splat(0.5),
         }
     }

@@ -80,6 +80,33 @@ pub enum Geometry {
     },
     /// Triangles.
     Mesh(Arc<Mesh>),
+    /// The points z = (x^2 + y^2) / (4 f) of a frame, normals towards the focus (extension).
+    Paraboloid {
+        /// The vertex; local +z points to the focus.
+        frame: Frame,
+        /// f in metres, positive.
+        focal_length: f64,
+        /// Distance of the rim from the axis, metres, positive.
+        rim: f64,
+    },
+    /// A lens, normals outwards (extension).
+    Lens {
+        /// The vertex of the first face; local +z points to that of the second.
+        frame: Frame,
+        /// Its faces.
+        lens: LensBody,
+    },
+}
+
+/// A body between two faces, each part of a sphere or flat, and a cylindrical rim.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LensBody {
+    /// Of the first and the second face, 1/m: positive if it opens towards local +z, zero if flat.
+    pub curvatures: [f64; 2],
+    /// Distance of the vertices, metres, positive.
+    pub thickness: f64,
+    /// Distance of the rim from the axis, metres, positive; the faces do not meet within it.
+    pub rim: f64,
 }
 
 impl Scene {

@@ -60,3 +60,12 @@ pub(crate) fn cylindrical(radius: f64, turn: f64, height: f64) -> DVec3 {
     let (sin, cos) = (TAU * turn).sin_cos();
     DVec3::new(radius * cos, radius * sin, height)
 }
+
+/// The roots of a t^2 + 2 b t + c in rising order; NaN where there is none, infinite where a is zero.
+pub(crate) fn roots(a: f64, b: f64, c: f64) -> [f64; 2] {
+    let root = (b * b - a * c).sqrt();
+    // Adding numbers of one sign keeps the digits that the textbook formula loses.
+    let q = -(b + root.copysign(b));
+    let (first, second) = (q / a, c / q);
+    if first <= second { [first, second] } else { [second, first] }
+}

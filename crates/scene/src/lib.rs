@@ -9,6 +9,7 @@ mod ball;
 mod bsdf;
 mod cell;
 mod description;
+mod dish;
 mod disk;
 mod emitter;
 mod frame;
@@ -29,7 +30,8 @@ mod world;
 
 pub use ball::Ball;
 pub use bsdf::{Bsdf, Conductor, Dielectric, Microfacets, Roughness};
-pub use description::{Geometry, Scene, Shape};
+pub use description::{Geometry, LensBody, Scene, Shape};
+pub use dish::{Dish, Section};
 pub use disk::Disk;
 pub use emitter::{Emitter, EnvironmentLight, Pattern, SkyMap};
 pub use frame::Frame;

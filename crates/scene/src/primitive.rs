@@ -4,8 +4,10 @@ use glam::{DVec2, DVec3};
 
 use crate::{
     ball::Ball,
-    description::{Geometry, Shape},
+    description::{Geometry, LensBody, Shape},
+    dish::{Dish, Section},
     disk::Disk,
+    frame::Frame,
     parallelogram::Parallelogram,
     ray::Ray,
     triangle::Triangle,
@@ -25,6 +27,8 @@ pub enum Surface {
     Tube(Tube),
     /// A face of a mesh.
     Triangle(Triangle),
+    /// A cap of a sphere or a paraboloid.
+    Dish(Dish),
 }
 
 /// One surface that a ray can meet and the shape it belongs to.
@@ -74,6 +78,7 @@ impl Surface {
             Surface::Disk(disk) => disk.area(),
             Surface::Tube(tube) => tube.area(),
             Surface::Triangle(face) => face.area(),
+            Surface::Dish(dish) => dish.area(),
         }
     }
 
@@ -84,17 +89,19 @@ impl Surface {
             Surface::Disk(disk) => disk.bounds(),
             Surface::Tube(tube) => tube.bounds(),
             Surface::Triangle(face) => face.bounds(),
+            Surface::Dish(dish) => dish.bounds(),
         }
     }
 
     /// Distance in metres from any point to the surface.
-    pub(crate) fn distance(&self, position: DVec3) -> f64 {
+    pub fn distance(&self, position: DVec3) -> f64 {
         match self {
             Surface::Parallelogram(face) => face.distance(position),
             Surface::Ball(ball) => ball.distance(position),
             Surface::Disk(disk) => disk.distance(position),
             Surface::Tube(tube) => tube.distance(position),
             Surface::Triangle(face) => face.distance(position),
+            Surface::Dish(dish) => dish.distance(position),
         }
     }
 
@@ -104,6 +111,7 @@ impl Surface {
         match self {
             Surface::Ball(ball) => ball.intersect(ray, t_min, starts_here),
             Surface::Tube(tube) => tube.intersect(ray, t_min, starts_here),
+            Surface::Dish(dish) => dish.intersect(ray, t_min, starts_here),
             Surface::Parallelogram(_) | Surface::Disk(_) | Surface::Triangle(_) if starts_here => None,
             Surface::Parallelogram(face) => face.intersect(ray, t_min).map(|(t, _)| t),
             Surface::Disk(disk) => disk.intersect(ray, t_min),
@@ -119,6 +127,7 @@ impl Surface {
             Surface::Triangle(face) => face.normal,
             Surface::Ball(ball) => ball.normal(position),
             Surface::Tube(tube) => tube.normal(position),
+            Surface::Dish(dish) => dish.normal(position),
         }
     }
 
@@ -131,6 +140,17 @@ impl Surface {
             Surface::Triangle(face) => on_plane(face.corners[0], face.normal),
             Surface::Ball(ball) => ball.project(landed),
             Surface::Tube(tube) => tube.project(landed),
+            Surface::Dish(dish) => dish.project(landed),
+        }
+    }
+
+    /// True if a point of its front side can be hidden by the rest of it: a surface that shines inwards, seen from outside.
+    pub(crate) fn hides_itself(&self) -> bool {
+        match self {
+            Surface::Parallelogram(_) | Surface::Disk(_) | Surface::Triangle(_) => false,
+            Surface::Ball(ball) => ball.inwards,
+            Surface::Tube(tube) => tube.inwards,
+            Surface::Dish(_) => true,
         }
     }
 
@@ -140,6 +160,7 @@ impl Surface {
             Surface::Parallelogram(face) => face.point(DVec2::from(xi)),
             Surface::Disk(disk) => disk.point(DVec2::new(disk.u_of_share(xi[0]), xi[1])),
             Surface::Tube(tube) => tube.point(DVec2::from(xi)),
+            Surface::Dish(dish) => dish.point(DVec2::new(dish.u_of_share(xi[0]), xi[1])),
             Surface::Triangle(face) => face.point(xi),
             Surface::Ball(ball) => ball.point(xi[0], 1.0 - 2.0 * xi[1]),
         }
@@ -179,5 +200,30 @@ pub(crate) fn surfaces(shape: &Shape) -> Vec<Surface> {
             vec![Surface::Tube(Tube { frame: *frame, radius, length, inwards: shape.flip_normals })]
         }
         Geometry::Mesh(mesh) => mesh.triangles(shape.flip_normals).into_iter().map(Surface::Triangle).collect(),
+        Geometry::Paraboloid { frame, focal_length, rim } => vec![Surface::Dish(Dish {
+            frame: *frame,
+            section: Section::Parabola,
+            curvature: 0.5 / focal_length,
+            rim: *rim,
+            front_up: !shape.flip_normals,
+        })],
+        Geometry::Lens { frame, lens } => lens_faces(frame, lens, shape.flip_normals),
     }
+}
+
+/// Its two faces and the rim between them.
+fn lens_faces(frame: &Frame, lens: &LensBody, inwards: bool) -> Vec<Surface> {
+    let face = |index: usize| Dish {
+        frame: Frame { origin: frame.world(index as f64 * lens.thickness * DVec3::Z), ..*frame },
+        section: Section::Circle,
+        curvature: lens.curvatures[index],
+        rim: lens.rim,
+        front_up: (index == 1) != inwards,
+    };
+    let faces = [face(0), face(1)];
+    let from = faces[0].sag(lens.rim);
+    let length = lens.thickness + faces[1].sag(lens.rim) - from;
+    let frame = Frame { origin: frame.world(from * DVec3::Z), ..*frame };
+    let rim = Tube { frame, radius: lens.rim, length, inwards };
+    vec![Surface::Dish(faces[0]), Surface::Dish(faces[1]), Surface::Tube(rim)]
 }

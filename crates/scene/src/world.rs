@@ -18,6 +18,9 @@ use crate::{
 /// Rays that start on a primitive never meet that (flat) primitive again, whatever the scale.
 const NEAREST: f64 = 1e-11;
 
+/// Share of the distance to a point on a surface that can hide parts of itself within which it does not hide that one.
+const OWN: f64 = 1e-6;
+
 /// A scene with its primitives and their accelerator.
 pub struct World {
     /// The description it was made from.
@@ -178,13 +181,19 @@ impl World {
         let t_min = NEAREST * ray.origin.abs().max_element();
         let mut open = 1.0;
         self.accelerator.along(ray, limit, |index, reach| {
-            if open == 0.0 || to == Some(index) {
-                return if open > 0.0 { reach } else { 0.0 };
+            let goal = to == Some(index);
+            if open > 0.0 && !(goal && self.is_end(index, 0.0, distance)) {
+                let before = if goal { reach.min(distance * (1.0 - OWN)) } else { reach };
+                open *= self.open_share(ray, index, from, t_min, before);
             }
-            open *= self.open_share(ray, index, from, t_min, reach);
             if open > 0.0 { reach } else { 0.0 }
         });
         open
+    }
+
+    /// True if a ray that is to end on a primitive at a distance has not met another part of that before, which hides the end.
+    pub fn is_end(&self, primitive: u32, met: f64, distance: f64) -> bool {
+        met >= distance * (1.0 - OWN) || !self.primitives[primitive as usize].surface.hides_itself()
     }
 
     /// Share of light that one primitive lets through up to a distance; a ray can cross a curved one several times.
@@ -225,6 +234,7 @@ impl World {
             // within 60 degrees; beyond, a normal test or the far side spoils the area.
             Surface::Ball(ball) => ball.radius < radius,
             Surface::Tube(tube) => tube.distance_to_edge(point.position) < radius || FLAT_SHARE * tube.radius < radius,
+            Surface::Dish(dish) => dish.distance_to_edge(point.position) < radius || dish.flat_within() < radius,
         };
         if leaves {
             return true;

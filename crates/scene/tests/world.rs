@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
 use photonlab_photometry::Spectrum;
-use photonlab_scene::{Bsdf, Frame, Geometry, Mesh, Ray, Scene, Shape, World};
+use photonlab_scene::{Bsdf, Frame, Geometry, LensBody, Mesh, Ray, Scene, Shape, Surface, World};
 
 /// SplitMix64 (Steele et al. 2014): good enough to place shapes and rays.
 struct Numbers(u64);
@@ -54,20 +54,71 @@ fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> 
             let turn = DMat3::from_axis_angle(numbers.direction(), numbers.next() * 6.0);
             let size = scale * (0.02 + 0.3 * numbers.next());
             let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(size)), centre);
-            let geometry = match i % 6 {
+            let squeeze = DAffine3::from_scale(DVec3::new(1.0, 0.3 + numbers.next(), 1.0));
+            let frame = Frame { origin: centre, axes: turn };
+            let geometry = match i % 9 {
                 0 => Geometry::Rectangle { to_world },
                 1 => Geometry::Cube { to_world },
                 2 => Geometry::Sphere { centre, radius: size, to_world: turn },
-                3 => Geometry::Disk { to_world },
-                4 => {
-                    let frame = Frame { origin: centre, axes: turn };
-                    Geometry::Cylinder { frame, radius: 0.5 * size, length: size }
-                }
+                3 => Geometry::Disk { to_world: to_world * squeeze },
+                4 => Geometry::Cylinder { frame, radius: 0.5 * size, length: size },
+                5 => Geometry::Paraboloid { frame, focal_length: 0.4 * size, rim: size },
+                6 => Geometry::Lens { frame, lens: lens(size) },
+                7 => Geometry::Mesh(Arc::new(icosphere(1, &to_world))),
                 _ => Geometry::Mesh(Arc::new(box_mesh(&to_world))),
             };
-            shape(geometry, i % 2 == 0)
+            shape(geometry, (i / 9) % 2 == 0)
         })
         .collect()
+}
+
+/// Thick, with both faces bulging, around half its thickness.
+fn round_lens(size: f64) -> LensBody {
+    LensBody { curvatures: [0.6 / size, -0.4 / size], thickness: size, rim: 0.8 * size }
+}
+
+/// A meniscus, so that one face is hollow.
+fn lens(size: f64) -> LensBody {
+    LensBody { curvatures: [0.5 / size, 0.8 / size], thickness: 0.3 * size, rim: 0.9 * size }
+}
+
+/// An icosahedron whose triangles are halved along each edge a number of times, on the unit sphere, normals outwards.
+fn icosphere(halvings: u32, to_world: &DAffine3) -> Mesh {
+    let golden = 0.5 * (1.0 + 5f64.sqrt());
+    let mut points: Vec<DVec3> = Vec::new();
+    for (a, b) in [(1.0, golden), (-1.0, golden), (1.0, -golden), (-1.0, -golden)] {
+        points.extend([DVec3::new(0.0, a, b), DVec3::new(a, b, 0.0), DVec3::new(b, 0.0, a)].map(|p| p.normalize()));
+    }
+    // The faces are the triples of neighbours.
+    let near = |a: usize, b: usize| (points[a] - points[b]).length() < 1.1;
+    let mut faces = Vec::new();
+    for a in 0..12 {
+        for b in a + 1..12 {
+            for c in b + 1..12 {
+                if near(a, b) && near(b, c) && near(a, c) {
+                    let out = (points[b] - points[a]).cross(points[c] - points[a]).dot(points[a]) > 0.0;
+                    faces.push(if out { [a, b, c] } else { [a, c, b] });
+                }
+            }
+        }
+    }
+    assert_eq!(faces.len(), 20);
+    let mut middles = std::collections::HashMap::new();
+    for _ in 0..halvings {
+        let mut finer = Vec::new();
+        for [a, b, c] in faces {
+            let [ab, bc, ca] = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+                *middles.entry((p.min(q), p.max(q))).or_insert_with(|| {
+                    points.push((points[p] + points[q]).normalize());
+                    points.len() - 1
+                })
+            });
+            finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
+        }
+        faces = finer;
+    }
+    let vertices = points.iter().map(|p| to_world.transform_point3(*p)).collect();
+    Mesh { vertices, faces: faces.into_iter().map(|f| f.map(|i| i as u32)).collect() }
 }
 
 /// The cube as twelve triangles, outside in front.
@@ -83,6 +134,7 @@ fn box_mesh(to_world: &DAffine3) -> Mesh {
 #[test]
 fn the_tree_finds_what_brute_force_finds() {
     let mut numbers = Numbers(1);
+    let mut kinds = [0; 9];
     for scale in [1e-3, 1.0, 1e3] {
         for count in [1, 3, 12, 60, 400] {
             let world = world(random_shapes(count, scale, &mut numbers));
@@ -109,6 +161,9 @@ fn the_tree_finds_what_brute_force_finds() {
                 );
                 if let Some(hit) = fast {
                     hits += 1;
+                    kinds[world.primitives[hit.point.primitive as usize].shape as usize % 9] += 1;
+                    let off = world.primitives[hit.point.primitive as usize].surface.distance(hit.point.position);
+                    assert!(off < 1e-12 * far * scale, "a hit lies on its surface: {off}");
                     assert_eq!(world.unblocked(&ray, None, hit.distance, Some(hit.point.primitive)), 1.0);
                     assert_eq!(world.unblocked(&ray, None, hit.distance * 1.001, None), 0.0);
                 }
@@ -116,12 +171,67 @@ fn the_tree_finds_what_brute_force_finds() {
             assert!(count < 10 || hits > 100, "the rays must meet something for the test to mean anything");
         }
     }
+    assert!(kinds.iter().all(|&hits| hits > 300), "every kind of surface is met: {kinds:?}");
+}
+
+/// A ray through a curved surface meets it as often as one that restarts where it lands; through masks the light that is
+/// left is the product of all.
+#[test]
+fn masks_are_crossed_as_often_as_a_ray_that_goes_on_lands() {
+    let mut numbers = Numbers(7);
+    for scale in [1e-3, 1.0, 1e3] {
+        let mut shapes = random_shapes(27, scale, &mut numbers);
+        for shape in &mut shapes {
+            let surface = Box::new(shape.bsdf.clone());
+            shape.bsdf = Bsdf::Mask { opacity: 0.5, surface };
+        }
+        let world = world(shapes);
+        let mut twice = [0; 9];
+        for _ in 0..8000 {
+            let ray = Ray::towards(numbers.vector() * 3.0 * scale, numbers.vector() * scale);
+            let (mut walk, mut from, mut open) = (ray, None, 1.0);
+            let mut crossed = vec![0; world.scene.shapes.len()];
+            while let Some(hit) = world.cast(&walk, from, f64::INFINITY) {
+                (walk, from) = (Ray::new(hit.point.position, ray.direction), Some(hit.point.primitive));
+                crossed[world.primitives[hit.point.primitive as usize].shape as usize] += 1;
+                open *= 0.5;
+            }
+            crossed.iter().enumerate().filter(|(_, n)| **n >= 2).for_each(|(shape, _)| twice[shape % 9] += 1);
+            assert_eq!(world.unblocked(&ray, None, 100.0 * scale, None), open);
+        }
+        assert!([1, 2, 4, 5, 6, 7, 8].iter().all(|&kind| twice[kind] > 20), "{twice:?}");
+    }
+}
+
+/// Areas by the small quadrilaterals between points drawn evenly by area, whose areas are alike.
+#[test]
+fn areas_agree_with_quadrature() {
+    let mut numbers = Numbers(8);
+    for shape in random_shapes(9, 1.0, &mut numbers) {
+        let world = world(vec![shape]);
+        for p in 0..world.primitives.len() as u32 {
+            let surface = world.primitives[p as usize].surface;
+            if let Surface::Triangle(_) = surface {
+                continue;
+            }
+            let n = 200;
+            let at = |i: usize, j: usize| surface.point_by_area([i as f64 / n as f64, j as f64 / n as f64]);
+            let cell = |i: usize, j: usize| {
+                let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+                0.5 * ((b - a).cross(c - a).length() + (c - a).cross(d - a).length())
+            };
+            let whole: f64 = (0..n * n).map(|k| cell(k / n, k % n)).sum();
+            assert!((whole / surface.area() - 1.0).abs() < 2e-3, "{surface:?}: {whole} {}", surface.area());
+            let somewhere = cell(n / 2, n / 3) * (n * n) as f64;
+            assert!((somewhere / surface.area() - 1.0).abs() < 0.02, "even by area: {surface:?}");
+        }
+    }
 }
 
 #[test]
 fn balls_that_leave_their_surface_agree_with_brute_force() {
     let mut numbers = Numbers(2);
-    let small = world(random_shapes(4, 1.0, &mut numbers));
+    let small = world(random_shapes(8, 1.0, &mut numbers));
     assert!(small.primitives.len() > 8, "the tree must be in use");
     let mut seen = [0, 0];
     for _ in 0..20_000 {
@@ -136,7 +246,7 @@ fn balls_that_leave_their_surface_agree_with_brute_force() {
         };
         // A neighbour counts if a shape on its own, seen from a point that is not on it, is within the radius.
         let own = small.primitives[hit.point.primitive as usize].shape as usize;
-        let expected = (0..4).filter(|&i| i != own).any(|i| small.distance_to_shape(i, hit.point.position) <= radius);
+        let expected = (0..8).filter(|&i| i != own).any(|i| small.distance_to_shape(i, hit.point.position) <= radius);
         let found = small.ball_leaves_surface(&hit.point, radius);
         if expected {
             assert!(found);
@@ -158,10 +268,13 @@ fn rays_from_walls_stay_in_the_room() {
             let centre = DVec3::new(0.3, -0.7, 0.2) * offset * scale;
             let turn = DMat3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
             let to_world = DAffine3::from_mat3_translation(turn * DMat3::from_diagonal(DVec3::splat(scale)), centre);
+            let frame = Frame { origin: centre - 0.5 * scale * turn.z_axis, axes: turn };
             for geometry in [
                 Geometry::Cube { to_world },
                 Geometry::Sphere { centre, radius: scale, to_world: DMat3::IDENTITY },
                 Geometry::Mesh(Arc::new(box_mesh(&to_world))),
+                Geometry::Mesh(Arc::new(icosphere(3, &to_world))),
+                Geometry::Lens { frame, lens: round_lens(scale) },
             ] {
                 let room = world(vec![shape(geometry, true)]);
                 for _ in 0..2000 {
@@ -241,4 +354,24 @@ fn a_flat_mesh_is_one_surface() {
         seen[usize::from(leaves[0])] += 1;
     }
     assert!(seen[0] > 100 && seen[1] > 100, "{seen:?}");
+}
+
+/// The inside of a tube that shines inwards is seen through its open ends, not through its wall, and so with a hollow dish.
+#[test]
+fn a_surface_hides_its_own_inside() {
+    let frame = Frame { origin: DVec3::ZERO, axes: DMat3::IDENTITY };
+    let far_wall = DVec3::new(-1.0, 0.0, 0.5);
+    for (geometry, flip) in [
+        (Geometry::Cylinder { frame, radius: 1.0, length: 1.0 }, true),
+        (Geometry::Sphere { centre: DVec3::new(0.0, 0.0, 0.5), radius: 1.0, to_world: DMat3::IDENTITY }, true),
+        (Geometry::Paraboloid { frame, focal_length: 0.5, rim: 2.0 }, false),
+    ] {
+        let world = world(vec![shape(geometry, flip)]);
+        let sees = |from: DVec3| {
+            let ray = Ray::towards(from, far_wall);
+            world.unblocked(&ray, None, (far_wall - from).length(), Some(0))
+        };
+        assert_eq!(sees(DVec3::new(3.0, 0.2, 0.4)), 0.0, "{:?}", world.scene.shapes[0].geometry);
+        assert_eq!(sees(DVec3::new(0.3, 0.2, 0.6)), 1.0, "{:?}", world.scene.shapes[0].geometry);
+    }
 }

@@ -17,6 +17,7 @@ mod error;
 mod film;
 mod index;
 mod integrator;
+mod lens;
 mod load;
 mod lumens;
 mod luminaire;

@@ -15,8 +15,8 @@ struct Plugins {
 const NONE: Plugins = Plugins { built: &[], later: &[], foreign: &[] };
 
 const SHAPES: Plugins = Plugins {
-    built: &["rectangle", "sphere", "cube", "disk", "cylinder", "obj", "ply"],
-    later: &["lens", "paraboloid"],
+    built: &["rectangle", "sphere", "cube", "disk", "cylinder", "obj", "ply", "paraboloid", "lens"],
+    later: &[],
     foreign: &[
         "blender",
         "bsplinecurve",

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DVec3};
 
-use crate::{Bsdf, DistantTarget, Film, Meter, Receiver, Sensor};
+use crate::{Bsdf, DistantTarget, Film, Geometry, Meter, Receiver, Sensor};
 
 use super::camera::camera;
 use super::element::Element;
@@ -53,10 +53,10 @@ pub(super) fn sensor<'e>(
         }
         ("radiancemeter", Position::Free) => (Receiver::Meter(radiancemeter(&mut object)?), one_cell(&object, film)?),
         ("irradiancemeter", Position::OnShape(shape)) => {
-            (Receiver::Meter(Meter::Irradiancemeter { shape }), film.unwrap_or(ONE_CELL))
+            (Receiver::Meter(Meter::Irradiancemeter { shape }), cells(&object, shape, film, builder)?)
         }
         ("fluxmeter", Position::OnShape(shape)) => {
-            (Receiver::Meter(Meter::Fluxmeter { shape }), film.unwrap_or(ONE_CELL))
+            (Receiver::Meter(Meter::Fluxmeter { shape }), cells(&object, shape, film, builder)?)
         }
         ("intensitymeter", Position::Free) => {
             let to_world = rotation(&mut object)?;
@@ -87,6 +87,14 @@ fn one_cell(object: &Object, film: Option<Film>) -> Result<Film, SceneError> {
             let what = format!("a {} has one cell, its film {width} x {height}", object.plugin);
             Err(object.element.error(what, "set width and height to 1, or remove the film"))
         }
+    }
+}
+
+/// The cells of a meter on a shape; one alone where (u, v) mean another thing on each part of it.
+fn cells(object: &Object, shape: usize, film: Option<Film>, builder: &Builder) -> Result<Film, SceneError> {
+    match builder.scene.shapes[shape].geometry {
+        Geometry::Lens { .. } | Geometry::Mesh(_) => one_cell(object, film),
+        _ => Ok(film.unwrap_or(ONE_CELL)),
     }
 }
 

@@ -11,6 +11,7 @@ use super::cylinder::cylinder;
 use super::element::Element;
 use super::emitter::area;
 use super::error::SceneError;
+use super::lens::{lens, paraboloid};
 use super::medium::boundary;
 use super::mesh::mesh;
 use super::number::Range;
@@ -78,6 +79,8 @@ fn geometry(object: &mut Object, builder: &mut Builder) -> Result<(Geometry, boo
     match object.plugin {
         "sphere" => return sphere(object),
         "cylinder" => return cylinder(object).map(|cylinder| (cylinder, false)),
+        "paraboloid" => return paraboloid(object).map(|paraboloid| (paraboloid, false)),
+        "lens" => return lens(object).map(|lens| (lens, false)),
         "obj" | "ply" => return mesh(object, builder).map(|mesh| (mesh, false)),
         _ => {}
     }

@@ -31,13 +31,14 @@ pub(super) fn sphere(object: &mut Object) -> Result<(Geometry, bool), SceneError
     Ok((Geometry::Sphere { centre, radius, to_world: orthonormalised(axes) }, axes.determinant() < 0.0))
 }
 
-fn is_orthonormal(axes: &DMat3) -> bool {
+/// True if the columns are unit vectors at right angles, as nearly as matrices are written.
+pub(super) fn is_orthonormal(axes: &DMat3) -> bool {
     let error = axes.transpose() * *axes - DMat3::IDENTITY;
     error.to_cols_array().into_iter().all(|entry| entry.abs() <= TOLERANCE)
 }
 
 /// The nearest orthonormal matrix to one that is nearly so: a Newton step leaves the square of the error.
-fn orthonormalised(axes: DMat3) -> DMat3 {
+pub(super) fn orthonormalised(axes: DMat3) -> DMat3 {
     let step = |axes: DMat3| (axes + axes.inverse().transpose()) * 0.5;
     if axes.transpose() * axes == DMat3::IDENTITY { axes } else { step(step(axes)) }
 }

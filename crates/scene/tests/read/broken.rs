@@ -98,6 +98,6 @@ fn defines_name_defaults() {
     let error = read_body(body, &[("r", "ball")]).expect_err("no ball");
     assert_eq!(
         error.to_string(),
-        "test.xml:3: shape: unknown shape \"ball\"; use one of ply, cube, disk, obj, sphere, cylinder, rectangle"
+        "test.xml:3: shape: unknown shape \"ball\"; use one of ply, cube, disk, lens, obj, sphere, cylinder, rectangle, paraboloid"
     );
 }

@@ -6,6 +6,7 @@ mod files;
 mod hostile;
 mod meshes;
 mod optics;
+mod round;
 mod samples;
 
 use photonlab_scene::Scene;
