@@ -66,6 +66,8 @@ pub const SUITE: &[(&str, usize)] = &[
     ("white furnace, media", 18),
     ("absorbing slab", 3),
     ("hazy room", 2),
+    ("tilted squares", 10),
+    ("smooth ball", 3),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

@@ -6,6 +6,7 @@
 
 mod family;
 mod field;
+mod icosphere;
 mod image;
 mod lab;
 mod mutant;
@@ -16,6 +17,7 @@ mod seed;
 
 pub use family::{FALSE_ALARM, Family, SUITE};
 pub use field::{Field, column, replicates};
+pub use icosphere::icosphere;
 pub use image::{Exr, ImageError};
 pub use lab::{Lab, scene_file, scene_text, settings};
 pub use mutant::{Mutant, MutantError};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
 use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
-use photonlab_photometry::Colour;
+use photonlab_photometry::{Colour, Photon};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
@@ -69,8 +70,12 @@ impl<const C: usize> Gatherer<'_, C> {
             if !self.looks_around || !self.limits.allows(used + 1) {
                 break;
             }
-            let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normal);
-            weight = weight * sight.weight(direction.dot(sight.normal));
+            let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+            let cosine = sight.normals.cosine(direction);
+            if cosine == 0.0 {
+                break;
+            }
+            weight = weight * sight.weight(cosine);
             stream.leave_prefix();
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
@@ -79,7 +84,7 @@ impl<const C: usize> Gatherer<'_, C> {
             let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
-                let by_chance = warp::cosine_hemisphere_pdf_solid_angle(direction.dot(sight.normal));
+                let by_chance = warp::cosine_hemisphere_pdf_solid_angle(cosine);
                 let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
@@ -125,7 +130,7 @@ impl<const C: usize> Gatherer<'_, C> {
         let Some(sample) = sample_direct(self.world, self.optics, at, sight, xi) else {
             return Light::default();
         };
-        let cosine = sample.direction.dot(sight.normal);
+        let cosine = sight.normals.cosine(sample.direction);
         let by_chance = warp::cosine_hemisphere_pdf_solid_angle(cosine);
         let balance = match sample.pdf_solid_angle {
             0.0 => 1.0 / (1.0 + share * sample.point_factor),
@@ -197,10 +202,15 @@ pub fn estimate<const C: usize>(
     tests: &Tests,
     scratch: &mut Scratch,
 ) -> Estimate<C> {
-    let point = GatherPoint { position: world.stored(at.position), normal: sight.normal.as_vec3().to_array() };
+    let point =
+        GatherPoint { position: world.stored(at.position), normal: sight.normals.geometric.as_vec3().to_array() };
     if sight.is_plain() {
         map.gather(&point, bandwidth, area, tests, scratch)
     } else {
-        map.gather_weighed(&point, bandwidth, area, tests, |cosine| sight.weight(cosine), scratch)
+        let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
+        let weigh = |photon: &Photon<C>| {
+            sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
+        };
+        map.gather_weighed(&point, bandwidth, area, tests, weigh, scratch)
     }
 }

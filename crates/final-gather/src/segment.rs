@@ -160,7 +160,10 @@ pub fn follow<const C: usize>(
                         walk.landing.matte = Some((hit, sight, walk.weight));
                         break;
                     }
-                    Err(mirrored) => walk.turn(&hit, Matte::<C>::mirrored(&walk.ray, &hit), mirrored, None),
+                    Err(mirrored) => match Matte::<C>::mirrored(&walk.ray, &hit) {
+                        Some((ray, _)) => walk.turn(&hit, ray, mirrored, None),
+                        None => break,
+                    },
                 }
             }
             Interaction::Followed(followed) => {

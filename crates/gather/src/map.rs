@@ -65,14 +65,14 @@ impl<const C: usize> PhotonMap<C> {
         self.gather_weighed(at, bandwidth, area, tests, |_| 1.0, scratch)
     }
 
-    /// The same with each photon counted by a weight of the cosine under which it arrived: what passes a coat.
+    /// The same with each photon counted by a weight of its own: what passes a coat.
     pub fn gather_weighed(
         &self,
         at: &GatherPoint,
         bandwidth: Bandwidth,
         area: AreaModel,
         tests: &Tests,
-        weigh: impl Fn(f64) -> f64,
+        weigh: impl Fn(&Photon<C>) -> f64,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         match bandwidth {
@@ -88,14 +88,14 @@ impl<const C: usize> PhotonMap<C> {
         radius: f64,
         area: AreaModel,
         tests: &Tests,
-        weigh: impl Fn(f64) -> f64,
+        weigh: impl Fn(&Photon<C>) -> f64,
     ) -> Estimate<C> {
         let inside = (radius * radius) as f32;
         let (mut ball, mut ring, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
         self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
             let photon = &self.tree.payloads()[index];
             if counts(photon, at, tests) {
-                let flux = photon.flux() * weigh(cosine(photon, at));
+                let flux = photon.flux() * weigh(photon);
                 if distance_squared <= inside {
                     photons += 1;
                     ball += flux;
@@ -119,12 +119,12 @@ impl<const C: usize> PhotonMap<C> {
         (k, max_radius): (usize, f64),
         area: AreaModel,
         tests: &Tests,
-        weigh: impl Fn(f64) -> f64,
+        weigh: impl Fn(&Photon<C>) -> f64,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         let flux = |index: usize| {
             let photon = &self.tree.payloads()[index];
-            photon.flux() * weigh(cosine(photon, at))
+            photon.flux() * weigh(photon)
         };
         let found = &mut scratch.found;
         self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
@@ -188,12 +188,6 @@ fn sum<const C: usize>(
     // The inner half of the area has half the bias, so twice the difference is the whole.
     let bias = (all * per_area - inner * (2.0 * per_area)) * 2.0;
     Estimate { irradiance: all * per_area, bias, photons: found.len(), radius }
-}
-
-/// Cosine between a photon's way back and the point's normal.
-fn cosine<const C: usize>(photon: &Photon<C>, at: &GatherPoint) -> f64 {
-    let direction = photon.direction.unpack();
-    -f64::from((0..3).map(|axis| direction[axis] * at.normal[axis]).sum::<f32>())
 }
 
 fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -> bool {

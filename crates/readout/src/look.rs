@@ -135,7 +135,7 @@ impl<const C: usize> Look<'_, C> {
                         let xi = [stream.next(), stream.next(), stream.next()];
                         let direct = sample_direct(self.world, self.optics, at, &sight, xi);
                         one.irradiance += direct.map_or(Colour::ZERO, |d| {
-                            let weight = sight.weight(d.direction.dot(sight.normal));
+                            let weight = sight.weight(sight.normals.cosine(d.direction));
                             d.irradiance * (weight / (1.0 + seed.share * d.point_factor))
                         });
                     }

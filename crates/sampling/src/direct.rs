@@ -161,13 +161,12 @@ pub fn sample_direct<const C: usize>(
     sight: &Sight<C>,
     xi: [f64; 3],
 ) -> Option<DirectSample<C>> {
-    let (normal, medium) = (sight.normal, sight.medium);
     let draw = LightDraw::new(world, &optics.lamps, point.position, xi)?;
-    let cosine = draw.direction.dot(normal);
+    let cosine = sight.normals.cosine(draw.direction);
     if cosine <= 0.0 {
         return None;
     }
-    let reaches = draw.reaches(world, optics, point.position, Some(point.primitive), medium);
+    let reaches = draw.reaches(world, optics, point.position, Some(point.primitive), sight.medium);
     (!reaches.is_zero()).then(|| DirectSample {
         direction: draw.direction,
         irradiance: draw.radiance_over_pdf * reaches * cosine,

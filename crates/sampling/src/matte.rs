@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Hit, Ray};
+use photonlab_scene::{Hit, Normals, Ray};
 
 use crate::{
     Stream,
@@ -27,12 +27,12 @@ struct Coat<const C: usize> {
     reflectance: Colour<C>,
 }
 
-/// The light that an eye sees of a matte surface: `factor` / pi times the irradiance on the side of `normal`, each
-/// direction of which counts with [`Sight::weight`].
+/// The light that an eye sees of a matte surface: `factor` / pi times the irradiance on the side of `normals`, by the cosine to
+/// the shading one, each direction of which counts with [`Sight::weight`].
 #[derive(Clone, Copy, Debug)]
 pub struct Sight<const C: usize> {
     /// Of the side whose light is seen.
-    pub normal: DVec3,
+    pub normals: Normals,
     /// Reflectance or transmittance, what was drawn against divided out.
     pub factor: Colour<C>,
     /// The medium on that side; index into [`Scene::media`](photonlab_scene::Scene::media).
@@ -42,9 +42,9 @@ pub struct Sight<const C: usize> {
 }
 
 impl<const C: usize> Sight<C> {
-    /// A meter: all light counts alike.
+    /// A meter: all light that arrives at the surface itself counts alike.
     pub fn meter(normal: DVec3, medium: Option<u32>) -> Self {
-        Self { normal, factor: Colour::ONE, medium, coat: None }
+        Self { normals: Normals::flat(normal), factor: Colour::ONE, medium, coat: None }
     }
 
     /// Weight of light that arrives under a cosine: the share that passes the coat, over its mean for diffuse light.
@@ -54,9 +54,18 @@ impl<const C: usize> Sight<C> {
             .map_or(1.0, |(index, over_mean)| (1.0 - fresnel_dielectric(cosine.clamp(0.0, 1.0), index).0) * over_mean)
     }
 
-    /// True if [`Sight::weight`] is one for all light.
+    /// What a photon that lies near counts: it came from a direction and is flux per area of a surface of its own normal.
+    pub fn weight_of_flux(&self, from: DVec3, normal: DVec3) -> f64 {
+        if self.normals.geometric == self.normals.shading {
+            return self.weight(from.dot(self.normals.geometric));
+        }
+        let (cosine, own) = (from.dot(self.normals.shading), from.dot(normal));
+        if cosine > 0.0 && own > 0.0 { self.weight(cosine) * cosine / own } else { 0.0 }
+    }
+
+    /// True if all photons count one.
     pub fn is_plain(&self) -> bool {
-        self.coat.is_none()
+        self.coat.is_none() && self.normals.geometric == self.normals.shading
     }
 }
 
@@ -91,7 +100,7 @@ impl<const C: usize> Matte<C> {
 
     /// Draws whether light that arrived along a ray is mirrored by the coat, and the share of it that goes on.
     pub fn enter(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> (bool, Colour<C>) {
-        let cosine = -ray.direction.dot(hit.facing_normal());
+        let cosine = hit.facing_normals().cosine(-ray.direction);
         match &self.coat {
             Some(coat) if self.coat_mirrors(cosine, stream) => (true, coat.reflectance),
             _ => (false, self.reflectance + self.transmittance),
@@ -117,23 +126,31 @@ impl<const C: usize> Matte<C> {
         (crosses, Colour(std::array::from_fn(factor)))
     }
 
-    /// Draws the direction in which light leaves the body on the side of `normal`: by the cosine, and by the share that the
-    /// coat lets out.
-    pub fn leave(&self, normal: DVec3, stream: &mut Stream) -> DVec3 {
+    /// Draws the direction in which light leaves the body on the side of `normals`, and the factor of flux that makes up for
+    /// the draw, one on a flat surface: of a bare body by the cosine to the surface itself, under a coat by that to the smooth
+    /// surface and the share that the coat lets out. `None` where it leaves beyond either horizon and is lost.
+    pub fn leave(&self, normals: &Normals, stream: &mut Stream) -> Option<(DVec3, f64)> {
+        if self.coat.is_none() {
+            let direction = warp::square_to_cosine_hemisphere(stream.next2(), normals.geometric);
+            return (normals.cosine(direction) > 0.0).then_some((direction, 1.0));
+        }
         loop {
-            let direction = warp::square_to_cosine_hemisphere(stream.next2(), normal);
-            let kept = self.coat_mirrors(direction.dot(normal).min(1.0), stream);
+            let direction = warp::square_to_cosine_hemisphere(stream.next2(), normals.shading);
+            let kept = self.coat_mirrors(direction.dot(normals.shading).min(1.0), stream);
             if !kept {
-                return direction;
+                let tilt = normals.tilt(direction);
+                return (tilt > 0.0).then_some((direction, 1.0 / tilt));
             }
         }
     }
 
-    /// The direction in which the coat mirrors a ray.
-    pub fn mirrored(ray: &Ray, hit: &Hit) -> Ray {
-        let normal = hit.facing_normal();
-        let cosine = -ray.direction.dot(normal);
-        Ray::new(hit.point.position, (ray.direction + 2.0 * cosine * normal).normalize())
+    /// The direction in which the coat mirrors a ray, with the factor of flux; `None` if that is into the surface.
+    pub fn mirrored(ray: &Ray, hit: &Hit) -> Option<(Ray, f64)> {
+        let normals = hit.facing_normals();
+        let cosine = -ray.direction.dot(normals.shading);
+        let direction = (ray.direction + 2.0 * cosine * normals.shading).normalize();
+        let tilts = [-ray.direction, direction].map(|direction| normals.tilt(direction));
+        tilts.iter().all(|tilt| *tilt > 0.0).then(|| (Ray::new(hit.point.position, direction), tilts[0] / tilts[1]))
     }
 
     /// What an eye that looks along a ray sees: the coat's reflection, which goes on, or light of one side of the body. The
@@ -145,8 +162,8 @@ impl<const C: usize> Matte<C> {
         media: [Option<u32>; 2],
         stream: &mut Stream,
     ) -> Result<Sight<C>, Colour<C>> {
-        let normal = hit.facing_normal();
-        let cosine = -ray.direction.dot(normal);
+        let normals = hit.facing_normals();
+        let cosine = normals.cosine(-ray.direction);
         if let Some(coat) = &self.coat
             && self.coat_mirrors(cosine, stream)
         {
@@ -154,9 +171,11 @@ impl<const C: usize> Matte<C> {
         }
         let (crosses, factor) = self.side(stream);
         let coat = self.coat.map(|c| (c.relative_index, 1.0 / (1.0 - diffuse_fresnel(c.relative_index))));
+        // The smooth surface may face away where the surface itself does not: it is black there.
+        let seen = if cosine > 0.0 { self.reflectance + self.transmittance } else { Colour::ZERO };
         Ok(Sight {
-            normal: if crosses { -normal } else { normal },
-            factor: (self.reflectance + self.transmittance) * factor,
+            normals: if crosses { normals.turned() } else { normals },
+            factor: seen * factor,
             medium: media[usize::from(crosses)],
             coat,
         })

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use photonlab_photometry::Colour;
-use photonlab_scene::{Hit, Ray};
+use photonlab_scene::{Hit, Normals, Ray};
 
 use crate::{FacetMaterial, Facets, Matte, Rough, Specular, Stream, warp::Frame};
 
@@ -39,8 +39,23 @@ pub struct Onward<const C: usize> {
     pub share: Colour<C>,
     /// Radiance seen along the reversed path over the flux share: n1^2 / n2^2 where light is refracted, else 1.
     pub compression: f64,
+    /// Factor of flux, but not of radiance, where a mesh stands for a smooth surface: |cos in, smooth| |cos out| over
+    /// |cos in| |cos out, smooth| (Veach 1997, section 5.3). One on all others.
+    pub tilt: f64,
     /// Density per solid angle of the direction; `None` for one with finite probability.
     pub pdf_solid_angle: Option<f64>,
+}
+
+impl<const C: usize> Onward<C> {
+    /// With its tilt, if both normals agree on which side the light goes on.
+    pub(crate) fn on_the_right_side(self, ray: &Ray, normals: &Normals) -> Option<Self> {
+        if normals.geometric == normals.shading {
+            return Some(self);
+        }
+        let side = if self.ray.direction.dot(normals.shading) > 0.0 { *normals } else { normals.turned() };
+        let (arriving, leaving) = (normals.tilt(-ray.direction), side.tilt(self.ray.direction));
+        (arriving > 0.0 && leaving > 0.0).then(|| Self { tilt: arriving / leaving, ..self })
+    }
 }
 
 /// Draws whether light goes through what a mask leaves open.
@@ -100,17 +115,23 @@ impl<const C: usize> Followed<C> {
     /// Draws how light goes on from a hit; `None` where it is lost.
     pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Option<Onward<C>> {
         match self {
-            Followed::Specular(specular) => Some(specular.draw(ray, hit, stream)),
+            Followed::Specular(specular) => specular.draw(ray, hit, stream),
             Followed::Rough(rough) => {
-                let frame = Frame::around(hit.facing_normal());
+                let normals = hit.facing_normals();
+                let frame = Frame::around(normals.shading);
                 let w = frame.local(-ray.direction);
+                if w.z <= 0.0 {
+                    return None;
+                }
                 let drawn = rough.draw(w, [stream.next(), stream.next(), stream.next()])?;
-                Some(Onward {
+                let onward = Onward {
                     ray: Ray::new(hit.point.position, frame.world(drawn.v)),
                     share: drawn.share,
                     compression: drawn.compression,
+                    tilt: 1.0,
                     pdf_solid_angle: Some(rough.pdf_solid_angle(w, drawn.v)),
-                })
+                };
+                onward.on_the_right_side(ray, &normals)
             }
         }
     }
@@ -119,8 +140,13 @@ impl<const C: usize> Followed<C> {
     /// and the density with which [`Followed::draw`] draws the direction. `None` for directions of finite probability.
     pub fn eval(&self, ray: &Ray, hit: &Hit, direction: DVec3) -> Option<(Colour<C>, f64)> {
         let Followed::Rough(rough) = self else { return None };
-        let frame = Frame::around(hit.facing_normal());
+        let normals = hit.facing_normals();
+        let frame = Frame::around(normals.shading);
         let (w, v) = (frame.local(-ray.direction), frame.local(direction));
+        let beyond = direction.dot(normals.geometric);
+        if w.z <= 0.0 || v.z * beyond <= 0.0 {
+            return Some((Colour::ZERO, 0.0));
+        }
         Some((rough.eval(w, v), rough.pdf_solid_angle(w, v)))
     }
 }

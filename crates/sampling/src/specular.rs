@@ -1,5 +1,6 @@
 //! Smooth surfaces: one or two directions with finite probability.
 
+use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_scene::{Hit, Ray};
 
@@ -46,17 +47,34 @@ pub enum Specular<const C: usize> {
 }
 
 impl<const C: usize> Specular<C> {
-    /// Draws how the ray goes on from a hit.
-    pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Onward<C> {
-        let normal = hit.facing_normal();
+    /// Draws how the ray goes on from a hit; `None` where the smooth surface that a mesh stands for sends it to the wrong side of
+    /// the mesh, where it is lost.
+    pub fn draw(&self, ray: &Ray, hit: &Hit, stream: &mut Stream) -> Option<Onward<C>> {
+        let normals = hit.facing_normals();
+        let normal = normals.shading;
         let cosine = -ray.direction.dot(normal);
+        if cosine < 0.0 {
+            return None;
+        }
+        let mirrored = (ray.direction + 2.0 * cosine * normal).normalize();
+        let onward = self.drawn(ray, hit, (normal, cosine, mirrored), stream);
+        onward.on_the_right_side(ray, &normals)
+    }
+
+    fn drawn(
+        &self,
+        ray: &Ray,
+        hit: &Hit,
+        (normal, cosine, mirrored): (DVec3, f64, DVec3),
+        stream: &mut Stream,
+    ) -> Onward<C> {
         let to = |direction, share, compression| Onward {
             ray: Ray::new(hit.point.position, direction),
             share,
             compression,
+            tilt: 1.0,
             pdf_solid_angle: None,
         };
-        let mirrored = (ray.direction + 2.0 * cosine * normal).normalize();
         match *self {
             Specular::Mirror { reflectance } => to(mirrored, reflectance, 1.0),
             Specular::Conductor { eta, k, reflectance } => {

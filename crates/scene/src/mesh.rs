@@ -9,9 +9,6 @@ use crate::triangle::Triangle;
 /// Cosine of the angle between two neighbouring faces above which they count as one surface: 18 degrees.
 pub(crate) const SAME_SURFACE: f64 = 0.95;
 
-/// Cosine of the angle between two neighbouring faces below which the surface visibly bends.
-const FLAT: f64 = 0.999;
-
 /// Triangles in world units.
 #[derive(Clone, PartialEq)]
 pub struct Mesh {
@@ -19,6 +16,17 @@ pub struct Mesh {
     pub vertices: Vec<DVec3>,
     /// Indices of each face's corners; the front side is that from which they run counter-clockwise.
     pub faces: Vec<[u32; 3]>,
+    /// The smooth surface that it stands for; `None` if it is what it looks like.
+    pub smooth: Option<Smooth>,
+}
+
+/// Normals of the smooth surface that a mesh stands for, interpolated between its corners.
+#[derive(Clone, Default, PartialEq)]
+pub struct Smooth {
+    /// Unit vectors, on the front sides of their faces.
+    pub normals: Vec<[f32; 3]>,
+    /// Indices of the normals of each face's corners.
+    pub corners: Vec<[u32; 3]>,
 }
 
 impl std::fmt::Debug for Mesh {
@@ -26,24 +34,22 @@ impl std::fmt::Debug for Mesh {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let vertices = self.vertices.iter().flat_map(|v| v.to_array()).flat_map(f64::to_le_bytes);
         let faces = self.faces.iter().flatten().flat_map(|index| index.to_le_bytes());
-        let bytes: Vec<u8> = vertices.chain(faces).collect();
+        let normals = self.smooth.iter().flat_map(|s| s.normals.iter().flatten()).flat_map(|x| x.to_le_bytes());
+        let corners = self.smooth.iter().flat_map(|s| s.corners.iter().flatten()).flat_map(|i| i.to_le_bytes());
+        let bytes: Vec<u8> = vertices.chain(faces).chain(normals).chain(corners).collect();
         let hash = xxhash_rust::xxh3::xxh3_128(&bytes);
         write!(f, "Mesh {{ {} faces, {hash:x} }}", self.faces.len())
     }
 }
 
 impl Mesh {
-    /// True if any two of its faces that share a corner lie at an angle.
-    pub(crate) fn bends(&self) -> bool {
-        let normal = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|index| self.vertices[index as usize]);
-            (b - a).cross(c - a).normalize()
-        };
-        let mut of_corner: Vec<Option<DVec3>> = vec![None; self.vertices.len()];
-        self.faces.iter().any(|face| {
-            let normal = normal(face);
-            face.iter().any(|&corner| of_corner[corner as usize].get_or_insert(normal).dot(normal) < FLAT)
-        })
+    /// Unit normal of the smooth surface at a point of a face, on the side of the face's own normal; that itself without one.
+    pub(crate) fn shading_normal(&self, face: usize, triangle: &Triangle, position: DVec3, flipped: bool) -> DVec3 {
+        let Some(smooth) = &self.smooth else { return triangle.normal };
+        let weights = triangle.weights(position).to_array();
+        let corners = smooth.corners[face].map(|index| DVec3::from(smooth.normals[index as usize].map(f64::from)));
+        let sum: DVec3 = corners.into_iter().zip(weights).map(|(normal, weight)| weight * normal).sum();
+        (if flipped { -sum } else { sum }).try_normalize().unwrap_or(triangle.normal)
     }
 
     /// Its faces, their front sides turned around if asked.

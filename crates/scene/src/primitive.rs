@@ -8,6 +8,7 @@ use crate::{
     dish::{Dish, Section},
     disk::Disk,
     frame::Frame,
+    normals::Normals,
     parallelogram::Parallelogram,
     ray::Ray,
     triangle::Triangle,
@@ -47,6 +48,8 @@ pub struct SurfacePoint {
     pub position: DVec3,
     /// Unit normal of the shape's front side.
     pub normal: DVec3,
+    /// Unit normal of the smooth surface that a mesh stands for; `normal` itself elsewhere.
+    pub shading: DVec3,
     /// Index into [`World::primitives`](crate::World::primitives).
     pub primitive: u32,
 }
@@ -66,6 +69,12 @@ impl Hit {
     /// The normal on the side from which the ray came.
     pub fn facing_normal(&self) -> DVec3 {
         if self.front { self.point.normal } else { -self.point.normal }
+    }
+
+    /// Both normals on that side.
+    pub fn facing_normals(&self) -> Normals {
+        let side = if self.front { 1.0 } else { -1.0 };
+        Normals { geometric: side * self.point.normal, shading: side * self.point.shading }
     }
 }
 

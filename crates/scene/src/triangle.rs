@@ -47,6 +47,14 @@ impl Triangle {
         a + u * (b - a) + v * (c - a)
     }
 
+    /// Weights of the corners that make up a point of the face; they add up to 1.
+    pub fn weights(&self, position: DVec3) -> DVec3 {
+        let [a, b, c] = self.corners;
+        let cross = (b - a).cross(c - a);
+        let share = |p: DVec3, q: DVec3| (p - position).cross(q - position).dot(cross) / cross.length_squared();
+        DVec3::new(share(b, c), share(c, a), share(a, b))
+    }
+
     /// Distance in metres from any point to the face.
     pub fn distance(&self, position: DVec3) -> f64 {
         let [a, b, c] = self.corners;

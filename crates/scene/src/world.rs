@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::{
     accelerator::{Accelerator, whole},
     bsdf::Bsdf,
-    description::{Scene, Shape},
+    description::{Geometry, Scene, Shape},
     medium::Boundary,
     mesh::SAME_SURFACE,
     primitive::{Hit, Primitive, Surface, SurfacePoint, surfaces},
@@ -260,8 +260,16 @@ impl World {
 
     /// The surface point of a primitive at a position on it.
     pub fn point_on(&self, primitive: u32, position: DVec3) -> SurfacePoint {
-        let normal = self.primitives[primitive as usize].surface.normal(position);
-        SurfacePoint { position, normal, primitive }
+        let Primitive { surface, shape } = &self.primitives[primitive as usize];
+        let normal = surface.normal(position);
+        let shading = match (surface, &self.scene.shapes[*shape as usize]) {
+            (Surface::Triangle(triangle), Shape { geometry: Geometry::Mesh(mesh), flip_normals, .. }) => {
+                let face = primitive - self.first_primitive[*shape as usize];
+                mesh.shading_normal(face as usize, triangle, position, *flip_normals)
+            }
+            _ => normal,
+        };
+        SurfacePoint { position, normal, shading, primitive }
     }
 
     fn meet(&self, ray: &Ray, index: u32, from: Option<u32>, t_min: f64) -> Option<f64> {

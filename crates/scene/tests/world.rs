@@ -118,7 +118,7 @@ fn icosphere(halvings: u32, to_world: &DAffine3) -> Mesh {
         faces = finer;
     }
     let vertices = points.iter().map(|p| to_world.transform_point3(*p)).collect();
-    Mesh { vertices, faces: faces.into_iter().map(|f| f.map(|i| i as u32)).collect() }
+    Mesh { vertices, faces: faces.into_iter().map(|f| f.map(|i| i as u32)).collect(), smooth: None }
 }
 
 /// The cube as twelve triangles, outside in front.
@@ -128,6 +128,7 @@ fn box_mesh(to_world: &DAffine3) -> Mesh {
     Mesh {
         vertices: (0..8).map(|i| to_world.transform_point3(corner(i))).collect(),
         faces: squares.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect(),
+        smooth: None,
     }
 }
 
@@ -339,7 +340,7 @@ fn a_flat_mesh_is_one_surface() {
         })
         .collect();
     let to_world = DAffine3::IDENTITY;
-    let mesh = world(vec![shape(Geometry::Mesh(Arc::new(Mesh { vertices, faces })), false)]);
+    let mesh = world(vec![shape(Geometry::Mesh(Arc::new(Mesh { vertices, faces, smooth: None })), false)]);
     let square = world(vec![shape(Geometry::Rectangle { to_world }, false)]);
     let mut seen = [0, 0];
     for _ in 0..2000 {

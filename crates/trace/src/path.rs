@@ -200,20 +200,31 @@ impl<const C: usize> Walk<'_, C> {
 
     /// Light enters a matte body and leaves it in any direction, unless its coat mirrors it.
     fn reflect(&mut self, hit: &Hit, matte: &Matte<C>, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        let normals = hit.facing_normals();
+        let arriving = normals.tilt(-self.ray.direction);
+        if arriving == 0.0 {
+            return self.lose(hit, out);
+        }
         let (mirrored, share) = matte.enter(&self.ray, hit, stream);
         if mirrored {
-            return self.go_on(hit, Matte::<C>::mirrored(&self.ray, hit), share, job, stream, out);
+            return match Matte::<C>::mirrored(&self.ray, hit) {
+                Some((ray, tilt)) => self.go_on(hit, ray, share * tilt, job, stream, out),
+                None => self.lose(hit, out),
+            };
         }
         self.lossless_run = if matte.is_lossless() { self.lossless_run + 1 } else { 0 };
         self.specular_run = 0;
-        if let Fate::Ended = self.thin_out(hit, share, stream, out) {
+        if let Fate::Ended = self.thin_out(hit, share * arriving, stream, out) {
             return Fate::Ended;
         }
         let (crosses, factor) = matte.side(stream);
         self.reweight(factor, out);
         self.class = PathClass::Indirect;
-        let normal = if crosses { -hit.facing_normal() } else { hit.facing_normal() };
-        let direction = matte.leave(normal, stream);
+        let side = if crosses { normals.turned() } else { normals };
+        let Some((direction, tilt)) = matte.leave(&side, stream) else { return self.lose(hit, out) };
+        if tilt != 1.0 {
+            self.keep_share(hit, Colour::splat(tilt), out);
+        }
         self.leave(hit, Ray::new(hit.point.position, direction), out);
         Fate::GoesOn
     }
@@ -227,11 +238,8 @@ impl<const C: usize> Walk<'_, C> {
         out: &mut Traced<C>,
     ) -> Fate {
         match followed.draw(&self.ray, hit, stream) {
-            Some(onward) => self.go_on(hit, onward.ray, onward.share, job, stream, out),
-            None => {
-                self.absorb(hit, self.flux, out);
-                Fate::Ended
-            }
+            Some(onward) => self.go_on(hit, onward.ray, onward.share * onward.tilt, job, stream, out),
+            None => self.lose(hit, out),
         }
     }
 
@@ -281,7 +289,8 @@ impl<const C: usize> Walk<'_, C> {
         self.flux = after;
     }
 
-    /// Absorbs what the coating does not hand on.
+    /// Absorbs what the coating does not hand on. A mesh that stands for a smooth surface hands on more than arrives at some
+    /// angles and less at others: what it absorbs can be negative.
     fn keep_share(&mut self, hit: &Hit, share: Colour<C>, out: &mut Traced<C>) {
         let kept = self.flux * share;
         self.absorb(hit, self.flux - kept, out);
@@ -326,6 +335,12 @@ impl<const C: usize> Walk<'_, C> {
         let front = ray.direction.dot(hit.point.normal) > 0.0;
         self.medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
         self.ray = ray;
+    }
+
+    /// Absorbs everything.
+    fn lose(&self, hit: &Hit, out: &mut Traced<C>) -> Fate {
+        self.absorb(hit, self.flux, out);
+        Fate::Ended
     }
 
     fn absorb(&self, hit: &Hit, flux: Colour<C>, out: &mut Traced<C>) {

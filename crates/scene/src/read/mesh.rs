@@ -1,12 +1,13 @@
 //! Meshes from files: `obj` and `ply`.
 
+use std::collections::HashMap;
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Seek};
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use crate::{Geometry, Mesh};
+use crate::{Geometry, Mesh, Smooth};
 
 use super::element::Element;
 use super::error::{Fault, SceneError};
@@ -19,8 +20,8 @@ use super::scene::Builder;
 
 /// Largest file of a mesh, bytes.
 const LARGEST_FILE: u64 = 1 << 32;
-/// Cosine between a corner's own normal and its face's below which shading by the corner's would look different.
-const FLAT: f64 = 0.999;
+/// Square of the distance between a corner's unit normal and its face's up to which they are the same: six digits.
+const SAME: f64 = 1e-10;
 
 /// Corners, faces and, where the file has them, a normal for each corner of each face.
 pub(super) struct Faces {
@@ -42,13 +43,19 @@ pub(super) fn mesh(object: &mut Object, builder: &mut Builder) -> Result<Geometr
     let about = |fault: Fault| file.error(format!("{} {}", quote(name), fault.what), fault.mend);
     let reader = open(file, name).map_err(about)?;
     let read = if object.plugin == "obj" { read_obj(reader) } else { read_ply(reader) }.map_err(about)?;
-    let (mesh, dropped, smooth) = placed(read, &to_world, !face_normals).map_err(about)?;
+    let made = read.normals.is_none();
+    let (mesh, dropped, turned) = placed(read, &to_world, !face_normals).map_err(about)?;
     if dropped > 0 {
         builder.note(&format!("{name}: {dropped} faces without area are left out"));
     }
-    if smooth {
+    if turned > 0 {
         builder.note(&format!(
-            "{name}: normals between the corners are not interpolated yet: faces are flat, as with face_normals"
+            "{name}: {turned} faces are turned around, for their front sides are where their normals say"
+        ));
+    }
+    if made && mesh.smooth.is_some() {
+        builder.note(&format!(
+            "{name}: it has no normals, so smooth ones are made as by Mitsuba; face_normals keeps its faces flat"
         ));
     }
     Ok(Geometry::Mesh(Arc::new(mesh)))
@@ -68,6 +75,7 @@ fn open(element: &Element, name: &str) -> Result<BufReader<File>, Fault> {
 }
 
 fn read_obj(mut reader: BufReader<File>) -> Result<Faces, Fault> {
+    check_normals(&mut reader)?;
     let options =
         tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     // Materials are given in the scene.
@@ -89,9 +97,35 @@ fn read_obj(mut reader: BufReader<File>) -> Result<Faces, Fault> {
     Ok(all)
 }
 
-/// The mesh in world units; how many faces were left out because they have no area; and whether corners have normals of their
-/// own that differ from their faces'. Where a file has normals, they tell the front side.
-fn placed(read: Faces, to_world: &DAffine3, corners_count: bool) -> Result<(Mesh, usize, bool), Fault> {
+/// The library makes up normals for faces without where others have some; such a file is refused.
+fn check_normals(reader: &mut BufReader<File>) -> Result<(), Fault> {
+    let unreadable = |error: std::io::Error| Fault::new(format!("cannot be read: {error}"), "give a readable file");
+    let (mut with, mut without, mut number) = (None, None, 0);
+    let mut line = Vec::new();
+    while reader.read_until(b'\n', &mut line).map_err(unreadable)? > 0 {
+        number += 1;
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        if words.next() == Some(b"f") {
+            let has_normal =
+                |word: &[u8]| word.split(|&byte| byte == b'/').nth(2).is_some_and(|index| !index.is_empty());
+            let side = if words.all(has_normal) { &mut with } else { &mut without };
+            side.get_or_insert(number);
+        }
+        line.clear();
+    }
+    reader.rewind().map_err(unreadable)?;
+    match (with, without) {
+        (Some(with), Some(without)) => {
+            let what = format!("has a face with normals in line {with}, and one without in line {without}");
+            Err(Fault::new(what, "export it with normals for all faces, or for none"))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The mesh in world units; how many faces were left out because they have no area; and how many were turned around. Where a
+/// file has normals and they count, they tell the front side.
+fn placed(read: Faces, to_world: &DAffine3, corners_count: bool) -> Result<(Mesh, usize, usize), Fault> {
     let Faces { vertices, faces, normals } = read;
     let vertices: Vec<DVec3> = vertices.into_iter().map(|vertex| to_world.transform_point3(vertex)).collect();
     for number in vertices.iter().flat_map(|vertex| vertex.to_array()) {
@@ -101,8 +135,9 @@ fn placed(read: Faces, to_world: &DAffine3, corners_count: bool) -> Result<(Mesh
         let what = format!("has a face with corner {wrong} of {}", vertices.len());
         return Err(Fault::new(what, "export it again"));
     }
-    let turned = to_world.matrix3.inverse().transpose();
-    let (mut kept, mut smooth) = (Vec::with_capacity(faces.len()), normals.is_none() && corners_count);
+    let to_normals = to_world.matrix3.inverse().transpose();
+    let (mut kept, mut turned) = (Vec::with_capacity(faces.len()), 0);
+    let mut smooth = Directions::default();
     for (number, &[a, b, c]) in faces.iter().enumerate() {
         let [p, q, r] = [a, b, c].map(|index| vertices[index as usize]);
         let across = (q - p).cross(r - p);
@@ -111,23 +146,72 @@ fn placed(read: Faces, to_world: &DAffine3, corners_count: bool) -> Result<(Mesh
         if across.length() <= 1e-12 * longest || longest == 0.0 {
             continue;
         }
-        let mut face = [a, b, c];
-        if let Some(normals) = normals.as_ref().filter(|_| corners_count) {
-            let across = across.normalize();
-            let own = normals[number].map(|normal| (turned * normal).normalize_or_zero());
-            if own.iter().sum::<DVec3>().dot(across) < 0.0 {
-                face = [a, c, b];
-            }
-            smooth |= own.iter().any(|normal| normal.dot(across).abs() < FLAT);
-        }
+        let Some(normals) = normals.as_ref().filter(|_| corners_count) else {
+            kept.push([a, b, c]);
+            continue;
+        };
+        let across = across.normalize();
+        let own = normals[number].map(|normal| (to_normals * normal).try_normalize());
+        let [Some(i), Some(j), Some(k)] = own else {
+            return Err(Fault::new("has a normal that is zero or no number", "export it again, or set face_normals"));
+        };
+        let against = (i + j + k).dot(across) < 0.0;
+        let (face, own) = if against { ([a, c, b], [i, k, j]) } else { ([a, b, c], [i, j, k]) };
+        turned += usize::from(against);
         kept.push(face);
+        smooth.add(own, if against { -across } else { across });
     }
     if kept.is_empty() {
         return Err(Fault::new("has no face with an area", "give a mesh of at least one"));
     }
     let dropped = faces.len() - kept.len();
-    let mesh = Mesh { vertices, faces: kept };
-    // Without normals in the file Mitsuba makes some, which differ from the faces' wherever neighbours bend.
-    let smooth = smooth && (normals.is_some() || mesh.bends());
-    Ok((mesh, dropped, smooth))
+    if corners_count && normals.is_none() {
+        smooth = averaged(&vertices, &kept);
+    }
+    let smooth = smooth.bent.then_some(smooth.smooth);
+    Ok((Mesh { vertices, faces: kept, smooth }, dropped, turned))
+}
+
+/// Normals of corners, equal ones kept once.
+#[derive(Default)]
+struct Directions {
+    smooth: Smooth,
+    numbers: HashMap<[u32; 3], u32>,
+    /// True if any of them differs from its face's.
+    bent: bool,
+}
+
+impl Directions {
+    fn add(&mut self, own: [DVec3; 3], face: DVec3) {
+        self.bent |= own.iter().any(|normal| (*normal - face).length_squared() > SAME);
+        let corners = own.map(|normal| {
+            let normal = normal.as_vec3().to_array();
+            *self.numbers.entry(normal.map(f32::to_bits)).or_insert_with(|| {
+                self.smooth.normals.push(normal);
+                self.smooth.normals.len() as u32 - 1
+            })
+        });
+        self.smooth.corners.push(corners);
+    }
+}
+
+/// What Mitsuba makes where a file has no normals: the mean over the faces of a corner, by their angles there (Thürmer and
+/// Wüthrich, "Computing Vertex Normals from Polygonal Facets", 1998).
+fn averaged(vertices: &[DVec3], faces: &[[u32; 3]]) -> Directions {
+    let mut sums = vec![DVec3::ZERO; vertices.len()];
+    let corners = |face: &[u32; 3]| face.map(|index| vertices[index as usize]);
+    let across = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).normalize();
+    for face in faces {
+        let at = corners(face);
+        for corner in 0..3 {
+            let [here, next, last] = [0, 1, 2].map(|step| at[(corner + step) % 3]);
+            sums[face[corner] as usize] += (next - here).angle_between(last - here) * across(at);
+        }
+    }
+    let mut directions = Directions::default();
+    for face in faces {
+        let normal = across(corners(face));
+        directions.add(face.map(|index| sums[index as usize].try_normalize().unwrap_or(normal)), normal);
+    }
+    directions
 }

@@ -89,7 +89,8 @@ pub(super) fn read_ply(file: BufReader<File>) -> Result<Faces, Fault> {
         })?;
         faces.extend(corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]));
     }
-    let has_normals = vertices.iter().all(|vertex| vertex.normal.is_finite());
+    let properties = header.elements.get("vertex").map(|element| &element.properties);
+    let has_normals = properties.is_some_and(|known| ["nx", "ny", "nz"].iter().all(|&name| known.contains_key(name)));
     let normals = has_normals.then(|| faces.iter().map(|f| f.map(|index| vertices[index as usize].normal)).collect());
     Ok(Faces { vertices: vertices.into_iter().map(|vertex| vertex.position).collect(), faces, normals })
 }

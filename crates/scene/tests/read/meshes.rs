@@ -1,7 +1,7 @@
 //! Meshes from files, whole and broken.
 
 use glam::DVec3;
-use photonlab_scene::{Geometry, Mesh, Scene, SurfacePoint, World, read::read_scene};
+use photonlab_scene::{Geometry, Mesh, Ray, Scene, SurfacePoint, World, read::read_scene};
 
 const SQUARE: &str = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nf 1 2 3 4\n";
 
@@ -96,9 +96,39 @@ fn what_is_left_out_is_said() {
     assert!(notes.iter().any(|note| note.contains("1 faces without area")), "{notes:?}");
     let bent = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n";
     let notes = read("a.obj", bent.as_bytes(), "").unwrap().notes;
-    assert!(notes.iter().any(|note| note.contains("not interpolated")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("it has no normals")), "{notes:?}");
+    let down = "v 0 0 0\nv 2 0 0\nv 2 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n";
+    let notes = read("a.obj", down.as_bytes(), "").unwrap().notes;
+    assert!(notes.iter().any(|note| note.contains("1 faces are turned around")), "{notes:?}");
     let flat = read("a.obj", bent.as_bytes(), "<boolean name='face_normals' value='true'/>").unwrap();
     assert!(flat.notes.is_empty(), "{:?}", flat.notes);
+}
+
+/// Where Mitsuba 3.9.1 says that the surface faces, with its own normals and with those that it makes.
+#[test]
+fn smooth_normals_are_mitsubas() {
+    let bent = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nf 1 2 3 4\nf 1 2 5\n";
+    let own = "v 0 0 0\nv 1 0 0\nv 1 1 0\nvn 0 0 -1\nvn 0.3 0 -1\nvn 0 0.2 -1\nf 1//1 2//2 3//3\n";
+    let mirror = "<transform name='to_world'><scale x='-1' y='1' z='1'/></transform>";
+    let flip = "<boolean name='flip_normals' value='true'/>";
+    let face = "<boolean name='face_normals' value='true'/>";
+    let made = DVec3::new(0.0, -0.305102, 0.95232);
+    let given = DVec3::new(0.0873349, 0.0596064, -0.994394);
+    for (content, inside, [x, y], expected) in [
+        (bent, "", [0.3, 0.6], made),
+        (bent, flip, [0.3, 0.6], -made),
+        (bent, mirror, [-0.3, 0.6], -made),
+        (bent, face, [0.3, 0.6], DVec3::Z),
+        (own, "", [0.6, 0.3], given),
+        (own, mirror, [-0.6, 0.3], given * DVec3::new(-1.0, 1.0, 1.0)),
+        (own, face, [0.6, 0.3], DVec3::Z),
+    ] {
+        let world = World::new(read("a.obj", content.as_bytes(), inside).unwrap_or_else(|error| panic!("{error}")));
+        let ray = Ray::new(DVec3::new(x, y, 2.0), DVec3::NEG_Z);
+        let point = world.cast(&ray, None, f64::INFINITY).expect("it is there").point;
+        assert!((point.shading - expected).length() < 2e-6, "{inside}: {} for {expected}", point.shading);
+        assert!(point.shading.dot(point.normal) > 0.0);
+    }
 }
 
 #[test]
@@ -117,6 +147,8 @@ fn broken_meshes_are_refused() {
         ("a.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".into(), "out of range"),
         ("a.obj", "v 0 0 inf\nv 1 0 0\nv 0 1 0\nf 1 2 3\n".into(), "out of range"),
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".into(), "no face with an area"),
+        ("a.obj", format!("{SQUARE}vn 0 0 0\nf 1//1 2//1 3//1\n").replace("f 1 2 3 4\n", ""), "a normal that is zero"),
+        ("a.obj", format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\n"), "normals in line 7, and one without in line 5"),
         ("a.ply", "solid".into(), "no valid PLY file"),
         ("a.ply", header("3", "1") + three, "no valid PLY file"),
         ("a.ply", header("3", "1000000000000") + three + "3 0 1 2\n", "no valid PLY file"),
