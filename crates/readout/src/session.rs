@@ -8,7 +8,7 @@ use photonlab_measure::Stopped;
 use photonlab_photometry::{Channels, Colour};
 use photonlab_sampling::{EmissionPlan, NothingCounts, Optics, PassOptics, PlanError, Purpose, Stream};
 use photonlab_scene::{Needs, World};
-use photonlab_trace::{Job, TraceError, count};
+use photonlab_trace::{Classes, Job, TraceError, count};
 use rayon::prelude::*;
 
 use crate::{
@@ -34,6 +34,8 @@ const MOST_PASSES: u64 = 100_000;
 /// Passes that a time limit should hold at least, and by how much the pilot that plans them is smaller than a pass.
 const PASSES_IN_TIME: f64 = 20.0;
 const PILOT: u64 = 64;
+/// Photons that try whether light in a medium ends.
+const STEADY_PHOTONS: u64 = 64;
 
 /// Where a session's photons come from.
 pub enum Source<'f, const C: usize> {
@@ -135,6 +137,7 @@ impl<const C: usize> Session<'_, C> {
         observer: &dyn Observer,
     ) -> Result<Outcome<C>, ReadError> {
         let start = Instant::now();
+        self.check_steady()?;
         let schedule = &self.fit_into_time(cells, schedule, source, start)?;
         let mut run = Run::new(cells.len());
         let passes = match source {
@@ -171,6 +174,17 @@ impl<const C: usize> Session<'_, C> {
                 return Ok(run.finish(self, stopped));
             }
         }
+    }
+
+    /// Follows some photons where a medium loses no light: one without an end would hold a ray from an eye for ever, and only
+    /// photons can say so.
+    fn check_steady(&self) -> Result<(), ReadError> {
+        if !self.world.scene.media.iter().any(|medium| medium.albedo.max() >= 1.0) {
+            return Ok(());
+        }
+        let optics = self.optics.any();
+        let photons = STEADY_PHOTONS.max(optics.lamps.lamps.len() as u64);
+        trace_pass(self.world, optics, &self.settings, Classes::NONE, u32::MAX, photons).map(drop)
     }
 
     /// True if more passes cannot bring the error down to the target: the bias of a radius that does not shrink, or light
