@@ -76,6 +76,13 @@ SHAPES = {
     '<bsdf type="diffuse"><rgb name="reflectance" value="0.3 0.6 0.9"/></bsdf></shape>'
     '<shape type="ply"><string name="filename" value="rock.ply"/><boolean name="face_normals" value="true"/>'
     '<transform name="to_world"><scale value="0.3"/><translate x="0.5" y="-0.3"/></transform><bsdf type="dielectric"/></shape>',
+    # Without face_normals both programs make smooth normals.
+    "smooth-matte": '<shape type="obj"><string name="filename" value="rock.obj"/><bsdf type="diffuse"><rgb name="reflectance" value="0.8 0.5 0.3"/></bsdf></shape>',
+    "smooth-plastic": '<shape type="obj"><string name="filename" value="rock.obj"/><transform name="to_world"><scale x="1" y="0.6" z="0.9"/><rotate z="1" angle="30"/></transform>'
+    '<bsdf type="plastic"><rgb name="diffuse_reflectance" value="0.6 0.3 0.1"/></bsdf></shape>',
+    "smooth-metal": '<shape type="ply"><string name="filename" value="rock.ply"/><bsdf type="roughconductor"><string name="material" value="Au"/>'
+    '<string name="distribution" value="ggx"/><float name="alpha" value="0.3"/></bsdf></shape>',
+    "smooth-mirror": '<shape type="ply"><string name="filename" value="rock.ply"/><bsdf type="conductor"><rgb name="specular_reflectance" value="0.9 0.8 0.7"/></bsdf></shape>',
     "obj-lamp": '<shape type="obj"><string name="filename" value="rock.obj"/><boolean name="face_normals" value="true"/>'
     '<transform name="to_world"><scale value="0.2"/></transform><emitter type="area"><rgb name="radiance" value="9 6 3"/></emitter></shape>',
 }

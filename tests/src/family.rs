@@ -66,6 +66,9 @@ pub const SUITE: &[(&str, usize)] = &[
     ("white furnace, media", 18),
     ("absorbing slab", 3),
     ("hazy room", 2),
+    ("disc lamp", 4),
+    ("mesh lamp", 8),
+    ("paraboloid", 4),
     ("tilted squares", 10),
     ("smooth ball", 3),
 ];

@@ -52,6 +52,18 @@ impl Lab {
         Self { needs: Needs::of(&scene), world: World::new(scene) }
     }
 
+    /// Reads a scene's elements in a folder with one more file.
+    ///
+    /// # Panics
+    /// If they are no scene.
+    pub fn beside(file: &str, text: &str, elements: &str) -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::fs::write(folder.path().join(file), text).expect("written");
+        let path = folder.path().join("scene.xml");
+        std::fs::write(&path, format!("<scene version=\"3.0.0\">{elements}</scene>")).expect("written");
+        Self::open(&path)
+    }
+
     /// Follows the photons of one pass.
     pub fn trace<const C: usize>(&self, photons: u64, seed: u64, pass: u32, keep: Classes) -> Traced<C> {
         self.trace_within(photons, seed, pass, keep, Limits::default())

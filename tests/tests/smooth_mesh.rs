@@ -4,18 +4,9 @@ use photonlab_measure::welch_test;
 use photonlab_readout::Method;
 use photonlab_tests::{Family, Lab, icosphere, seed, settings};
 
-/// A scene in a folder with a file beside it.
-fn beside(file: &str, text: &str, scene: &str) -> Lab {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join(file), text).expect("written");
-    let path = folder.path().join("scene.xml");
-    std::fs::write(&path, format!("<scene version=\"3.0.0\">{scene}</scene>")).expect("written");
-    Lab::open(&path)
-}
-
 /// A lamp that shines up at a ball of 80 triangles; the meter below sees the ball alone.
 fn below_a_ball(coating: &str) -> Lab {
-    beside(
+    Lab::beside(
         "ball.obj",
         &icosphere(1, true),
         &format!(
@@ -34,7 +25,7 @@ fn below_a_ball(coating: &str) -> Lab {
 fn beside_a_tilted_square(coating: &str) -> Lab {
     let square = "v -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\nvn 0.34202014 0 0.93969262\nf 1//1 2//1 3//1 4//1\n";
     let black = r#"<bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf><sensor type="irradiancemeter"/>"#;
-    beside(
+    Lab::beside(
         "square.obj",
         square,
         &format!(
