@@ -45,7 +45,7 @@ pub struct SurfaceBook<const C: usize> {
     pub incident: Colour<C>,
     /// Flux of all rays that left, after roulette.
     pub outgoing: Colour<C>,
-    /// Absorbed by the coating: not a difference of the other two, which roulette makes random.
+    /// Absorbed by the coating: not a difference of the other two, which roulette makes random. Negative where a mesh's smooth normals hand on more than arrives.
     pub absorbed: Colour<C>,
 }
 
