@@ -29,6 +29,7 @@
 //! # Ok::<(), photonlab_kdtree::BuildError>(())
 //! ```
 
+mod accept;
 mod ball;
 mod batch;
 mod binned;

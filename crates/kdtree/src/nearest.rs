@@ -1,5 +1,6 @@
 //! The k nearest points, of all or of those that the caller accepts.
 
+use crate::accept::{Accept, All, Asked};
 use crate::block::{BLOCK, Block, lanes_in};
 use crate::candidates::Candidates;
 use crate::lanes::{Lanes, Task, dispatch};
@@ -7,38 +8,6 @@ use crate::neighbours::{Last, Neighbours};
 use crate::node::{Node, WIDTH};
 use crate::tree::{KdTree, MAX_DEPTH};
 use crate::visits::{Meter, Unmetered, Visits};
-
-/// Says which points count.
-trait Accept {
-    /// The bits of `mask` whose points count; bit i is that of tree index `first + i`.
-    fn ask(&mut self, first: usize, mask: u16) -> u16;
-}
-
-/// Every point counts.
-struct All;
-
-impl Accept for All {
-    #[inline(always)]
-    fn ask(&mut self, _: usize, mask: u16) -> u16 {
-        mask
-    }
-}
-
-/// The caller is asked about each.
-struct Asked<'a, P, A>(&'a [P], A);
-
-impl<P, A: FnMut(&P) -> bool> Accept for Asked<'_, P, A> {
-    #[inline(always)]
-    fn ask(&mut self, first: usize, mask: u16) -> u16 {
-        let (mut left, mut accepted) = (mask, 0);
-        while left != 0 {
-            let lane = left.trailing_zeros();
-            accepted |= u16::from((self.1)(&self.0[first + lane as usize])) << lane;
-            left &= left - 1;
-        }
-        accepted
-    }
-}
 
 /// A walk that opens nearer children first, from a first reach that shrinks.
 struct Walk<'a, A, M> {
