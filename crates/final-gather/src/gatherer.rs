@@ -8,27 +8,36 @@ use photonlab_photometry::{Colour, Photon};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
+use crate::{EyeLimits, InScattering, Light, Start, VolumeMaps, segment, segment::Emitted};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
 
 /// A map and the radius with which it is read.
-#[derive(Clone, Copy)]
-pub struct MapWithRadius<'m, const C: usize> {
+pub struct MapWithRadius<'m, M> {
     /// The photons.
-    pub map: &'m PhotonMap<C>,
+    pub map: &'m M,
     /// Metres.
     pub radius: f64,
 }
+
+impl<M> Clone for MapWithRadius<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for MapWithRadius<'_, M> {}
 
 /// The maps that final gather reads.
 #[derive(Clone, Copy)]
 pub struct GatherMaps<'m, const C: usize> {
     /// All photons; `None` if no light is reflected diffusely onto anything.
-    pub surface: Option<MapWithRadius<'m, C>>,
+    pub surface: Option<MapWithRadius<'m, PhotonMap<C>>>,
     /// Photons that came through specular surfaces alone; `None` if there are none.
-    pub caustic: Option<MapWithRadius<'m, C>>,
+    pub caustic: Option<MapWithRadius<'m, PhotonMap<C>>>,
+    /// Photons in media; `None` if no medium scatters.
+    pub volume: Option<VolumeMaps<'m, C>>,
 }
 
 /// Final gather over maps, or path tracing without.
@@ -79,8 +88,15 @@ impl<const C: usize> Gatherer<'_, C> {
             stream.leave_prefix();
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
-            let start =
-                Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps, medium: sight.medium };
+            let start = Start {
+                ray,
+                from: Some(at.primitive),
+                reach: f64::INFINITY,
+                used,
+                seeks_lamps,
+                medium: sight.medium,
+                in_scattering: self.in_scattering(),
+            };
             let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
@@ -88,10 +104,7 @@ impl<const C: usize> Gatherer<'_, C> {
                 let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
-            if !landing.scattered.is_zero() {
-                let contribution = Light { irradiance: landing.scattered * PI, ..Light::default() };
-                light.add(&contribution.weighted(weight));
-            }
+            light.add(&landing.scattered.weighted(weight * PI));
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
                 let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
@@ -119,6 +132,11 @@ impl<const C: usize> Gatherer<'_, C> {
             (at, sight) = (hit.point, seen);
         }
         light
+    }
+
+    /// How light that media scatter into a gather ray is found.
+    fn in_scattering(&self) -> InScattering<'_, C> {
+        self.maps.and_then(|maps| maps.volume).map_or(InScattering::ByPaths, InScattering::Gathered)
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
@@ -170,7 +188,7 @@ impl<const C: usize> Gatherer<'_, C> {
 
     fn read(
         &self,
-        source: &MapWithRadius<'_, C>,
+        source: &MapWithRadius<'_, PhotonMap<C>>,
         at: &SurfacePoint,
         sight: &Sight<C>,
         used: u32,
