@@ -3,7 +3,8 @@
 use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
-    AroundPoint, Equiangular, Flight, LampKind, LightDraw, Stream, Volume, balance_pdf, phase_pdf_solid_angle, scatter,
+    AroundPoint, Equiangular, Flight, LampKind, LightDraw, Optics, Stream, Volume, balance_pdf, phase_pdf_solid_angle,
+    scatter,
 };
 use photonlab_scene::Ray;
 
@@ -24,7 +25,19 @@ impl<const C: usize> Walk<'_, '_, C> {
         limits: &EyeLimits,
         stream: &mut Stream,
     ) -> Crossing {
-        let Flight { collision, factor } = self.draw_lamp_along(volume, reach, &counts, limits, stream);
+        let flight = self.draw_lamp_along(volume, reach, &counts, limits, stream);
+        self.land(volume, flight, counts, limits, stream)
+    }
+
+    /// Ends a flight.
+    pub(crate) fn land(
+        &mut self,
+        volume: &Volume<C>,
+        Flight { collision, factor }: Flight<C>,
+        counts: impl Fn(f64) -> bool,
+        limits: &EyeLimits,
+        stream: &mut Stream,
+    ) -> Crossing {
         let before = self.weight * factor;
         let Some(distance) = collision else {
             self.weight = before;
@@ -59,7 +72,7 @@ impl<const C: usize> Walk<'_, '_, C> {
     /// A lamp without extent is drawn from where the flight collides and from a place drawn around it; the balance heuristic
     /// (Veach and Guibas 1995) shares the work. A lamp with extent is drawn from the collision alone and shares the work with the
     /// ray that is scattered there.
-    fn draw_lamp_along(
+    pub(crate) fn draw_lamp_along(
         &mut self,
         volume: &Volume<C>,
         reach: f64,
@@ -178,7 +191,7 @@ impl<const C: usize> Walk<'_, '_, C> {
 
 /// Directions around a lamp without extent, if it stands in a medium that scatters.
 pub(crate) fn around_lamp_in_medium<const C: usize>(
-    optics: &photonlab_sampling::Optics<C>,
+    optics: &Optics<C>,
     lamp: usize,
     from: DVec3,
 ) -> Option<AroundPoint> {

@@ -8,7 +8,9 @@ use photonlab_photometry::{Colour, Photon};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, InScattering, Light, Start, VolumeMaps, segment, segment::Emitted};
+use crate::{
+    EyeLimits, InScattering, Light, Start, VolumeMaps, collision::around_lamp_in_medium, segment, segment::Emitted,
+};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
@@ -80,12 +82,13 @@ impl<const C: usize> Gatherer<'_, C> {
                 break;
             }
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+            stream.leave_prefix();
+            let (direction, share) = self.turned_to_lamp(&at, &sight, direction, stream);
             let cosine = sight.normals.cosine(direction);
             if cosine == 0.0 {
                 break;
             }
-            weight = weight * sight.weight(cosine);
-            stream.leave_prefix();
+            weight = weight * (share * sight.weight(cosine));
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
             let start = Start {
@@ -132,6 +135,21 @@ impl<const C: usize> Gatherer<'_, C> {
             (at, sight) = (hit.point, seen);
         }
         light
+    }
+
+    /// Without maps, half of the rays from a point are drawn around a lamp without extent, if one that stands in a medium is
+    /// chosen (see [`AroundPoint`](photonlab_sampling::AroundPoint)): the direction, and its density by the cosine over that by
+    /// which it was drawn.
+    fn turned_to_lamp(&self, at: &SurfacePoint, sight: &Sight<C>, drawn: DVec3, stream: &mut Stream) -> (DVec3, f64) {
+        let lamps = &self.optics.lamps;
+        if self.maps.is_some() || self.world.scene.media.is_empty() || lamps.lamps.is_empty() {
+            return (drawn, 1.0);
+        }
+        let lamp = lamps.choose(stream.next());
+        let Some(around) = around_lamp_in_medium(self.optics, lamp, at.position) else { return (drawn, 1.0) };
+        let direction = if stream.next() < 0.5 { around.draw(stream) } else { drawn };
+        let by_cosine = warp::cosine_hemisphere_pdf_solid_angle(sight.normals.cosine(direction));
+        (direction, by_cosine / (0.5 * by_cosine + 0.5 * around.pdf_solid_angle(direction)))
     }
 
     /// How light that media scatter into a gather ray is found.

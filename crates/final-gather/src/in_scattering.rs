@@ -1,8 +1,9 @@
 //! Light that a medium scatters into a ray.
 
 use photonlab_gather::{Beam, CHECK, Scattered, VolumeMap};
-use photonlab_photometry::{PathClass, VolumePhoton};
+use photonlab_photometry::{Colour, PathClass, VolumePhoton};
 use photonlab_sampling::{Stream, phase_pdf_solid_angle};
+use photonlab_scene::{Ray, World};
 
 use crate::{EyeLimits, Light, MapWithRadius, segment::Walk, stretches::Stretches};
 
@@ -58,29 +59,22 @@ impl<const C: usize> Walk<'_, '_, C> {
         if self.weight.is_zero() {
             return Crossing::Ended;
         }
-        let piece = Piece { medium, depth: reach.min(volume.depth()), limits };
+        let depth = reach.min(volume.depth());
+        let piece = Piece { ray: self.ray, world: self.world, medium, depth, limits };
+        let all_of_it = |along| volume.transmittance(along);
         match self.in_scattering {
             InScattering::ByPaths => self.fly(volume, reach, |_| true, limits, stream),
             InScattering::ByLook(maps) => {
                 if let Some(caustic) = maps.caustic {
-                    let near = self.near_surfaces(&piece, caustic.radius);
-                    self.read_along(&piece, caustic, &near, |class, _| class == PathClass::Caustic);
+                    let near = piece.near_surfaces([0.0, depth], caustic.radius);
+                    self.read_along(&piece, caustic, &near, all_of_it, |class, _| class == PathClass::Caustic);
                 }
                 self.fly(volume, reach, |_| true, limits, stream)
             }
-            InScattering::Gathered(maps) => {
-                let left_out = self.near_surfaces(&piece, maps.all.radius);
-                self.read_along(&piece, maps.all, &left_out, |_, along| !left_out.has(along));
-                if let Some(caustic) = maps.caustic.filter(|_| !left_out.is_empty()) {
-                    let near = self.near_surfaces(&piece, caustic.radius);
-                    let counts = |class, along| class == PathClass::Caustic && left_out.has(along);
-                    self.read_along(&piece, caustic, &near, counts);
-                }
-                self.fly(volume, reach, |along| left_out.has(along), limits, stream)
-            }
+            InScattering::Gathered(maps) => self.gather(&piece, reach, maps, stream),
             InScattering::FromMap { map, draws_lamps } => {
-                let near = self.near_surfaces(&piece, map.radius);
-                self.read_along(&piece, map, &near, |class, _| !draws_lamps || class != PathClass::Direct);
+                let near = piece.near_surfaces([0.0, depth], map.radius);
+                self.read_along(&piece, map, &near, all_of_it, |class, _| !draws_lamps || class != PathClass::Direct);
                 if draws_lamps {
                     self.draw_once(volume, reach, limits, stream);
                 }
@@ -90,20 +84,38 @@ impl<const C: usize> Walk<'_, '_, C> {
         }
     }
 
-    /// Where the kernel that checks a radius would reach over a surface.
-    fn near_surfaces(&self, piece: &Piece<'_>, radius: f64) -> Stretches {
-        Stretches::near_surfaces(self.world, &self.ray, piece.depth, CHECK * radius)
+    /// Reads the map as far as the ray flies, and collides only where the map's kernel would reach over a surface.
+    ///
+    /// Of many rays each needs little: photons count up to the collision alone, by their transmittance over the share of rays
+    /// that fly so far, which costs a short query instead of one as deep as light reaches.
+    fn gather(&mut self, piece: &Piece<'_>, reach: f64, maps: VolumeMaps<'_, C>, stream: &mut Stream) -> Crossing {
+        let (volume, weight) = (self.optics.volume(piece.medium), self.weight);
+        let left_out = |along: f64| piece.near_surfaces([along; 2], maps.all.radius).has(along);
+        let flight = self.draw_lamp_along(volume, reach, left_out, piece.limits, stream);
+        let flown = flight.collision.unwrap_or(reach).min(piece.depth);
+        let share = |along| volume.transmittance(along) * (1.0 / volume.share_that_flies(weight, along));
+        let near = piece.near_surfaces([0.0, flown], maps.all.radius);
+        let short = Piece { depth: flown, ..*piece };
+        self.read_along(&short, maps.all, &near, share, |_, along| !near.has(along));
+        if let Some(caustic) = maps.caustic.filter(|_| !near.is_empty()) {
+            let doubtful = piece.near_surfaces([0.0, flown], caustic.radius);
+            let counts = |class, along| class == PathClass::Caustic && near.has(along);
+            self.read_along(&short, caustic, &doubtful, share, counts);
+        }
+        self.land(volume, flight, left_out, piece.limits, stream)
     }
 
-    /// The beam radiance estimate along the ray, of the photons that count by their class and their place along it.
+    /// The beam radiance estimate along the ray, of the photons that count by their class and their place along it, of each the
+    /// share that is left after a distance.
     fn read_along(
         &mut self,
         piece: &Piece<'_>,
         source: MapWithRadius<'_, VolumeMap<C>>,
         near: &Stretches,
+        left: impl Fn(f64) -> Colour<C>,
         counts: impl Fn(PathClass, f64) -> bool,
     ) {
-        let (ray, volume) = (self.ray, self.optics.volume(piece.medium));
+        let (ray, volume) = (piece.ray, self.optics.volume(piece.medium));
         let most = piece.limits.max_segments.map(|max| max.saturating_sub(self.landing.segments + 1));
         let scattered = |photon: &VolumePhoton<C>, along: f64| {
             let wanted = photon.medium == piece.medium
@@ -112,7 +124,7 @@ impl<const C: usize> Walk<'_, '_, C> {
             wanted.then(|| {
                 let towards_eye = -ray.direction.dot(photon.direction.unpack().map(f64::from).into());
                 let phase = phase_pdf_solid_angle(volume.phase, towards_eye);
-                Scattered { share: volume.albedo * volume.transmittance(along) * phase, resolved: !near.has(along) }
+                Scattered { share: volume.albedo * left(along) * phase, resolved: !near.has(along) }
             })
         };
         let origin = (ray.origin - self.world.middle()).to_array();
@@ -130,9 +142,19 @@ impl<const C: usize> Walk<'_, '_, C> {
 }
 
 /// A piece of a ray in a medium.
-struct Piece<'l> {
+#[derive(Clone, Copy)]
+struct Piece<'p> {
+    ray: Ray,
+    world: &'p World,
     medium: u32,
     /// Metres of it that can be seen.
     depth: f64,
-    limits: &'l EyeLimits,
+    limits: &'p EyeLimits,
+}
+
+impl Piece<'_> {
+    /// Where, in a window, the kernel that checks a radius would reach over a surface.
+    fn near_surfaces(&self, window: [f64; 2], radius: f64) -> Stretches {
+        Stretches::near_surfaces(self.world, &self.ray, self.depth, window, CHECK * radius)
+    }
 }

@@ -53,6 +53,12 @@ impl<const C: usize> Volume<C> {
         (self.transmittance(distance) * self.sigma_t * carried).0.into_iter().sum::<f64>() / total
     }
 
+    /// Share of flights drawn by [`Volume::fly`] that do not collide up to a distance.
+    pub fn share_that_flies(&self, carried: Colour<C>, distance: f64) -> f64 {
+        let total: f64 = carried.0.into_iter().sum();
+        (self.transmittance(distance) * carried).0.into_iter().sum::<f64>() / total
+    }
+
     /// Draws how far light flies of which each channel carries some: by the extinction of a channel that is drawn by what it
     /// carries, weighted against those by which the others would have drawn the same (the balance heuristic).
     pub fn fly(&self, carried: Colour<C>, reach: f64, stream: &mut Stream) -> Flight<C> {
