@@ -144,19 +144,14 @@ impl<const C: usize> Walk<'_, '_, C> {
     /// Turns the ray, as the medium scatters it at a place. Seen from the eye, light that goes on along the reversed ray came from
     /// the direction that is drawn here.
     ///
-    /// Without maps, as many rays are drawn around the next lamp, if that has no extent and stands in a medium: see
-    /// [`AroundPoint`].
+    /// As many rays are drawn around the next lamp, if that has no extent and stands in a medium: see [`AroundPoint`].
     fn scatter_on(&mut self, volume: &Volume<C>, at: DVec3, stream: &mut Stream) {
         let before = self.ray.direction;
         self.lamp = None;
-        let around = match self.in_scattering {
-            InScattering::ByPaths => self.lamp(stream).and_then(|lamp| around_lamp_in_medium(self.optics, lamp, at)),
-            InScattering::ByLook(maps) | InScattering::Gathered(maps) => {
-                self.in_scattering = InScattering::Gathered(maps);
-                None
-            }
-            InScattering::FromMap { .. } => None,
-        };
+        if let InScattering::ByLook(maps) = self.in_scattering {
+            self.in_scattering = InScattering::Gathered(maps);
+        }
+        let around = self.lamp(stream).and_then(|lamp| around_lamp_in_medium(self.optics, lamp, at));
         let direction = match &around {
             Some(around) if stream.next() < 0.5 => around.draw(stream),
             _ => scatter(volume.phase, before, stream),

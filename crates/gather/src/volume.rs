@@ -12,7 +12,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
+use photonlab_kdtree::{BuildError, KdTree, SplitRule};
 use photonlab_photometry::{Colour, VolumePhoton};
 
 use crate::{CHECK, Scratch};
@@ -113,21 +113,30 @@ impl<const C: usize> VolumeMap<C> {
         sums.over(4.0 / 3.0 * PI * radius.powi(3), CHECK.powi(3))
     }
 
-    /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon: the
-    /// radius of a ball that holds about k photons where photons are. `None` for a map of fewer than k photons.
-    pub fn typical_radius(&self, k: usize, probes: usize, scratch: &mut Scratch) -> Option<f64> {
+    /// Radius of the cylinder around a ray that holds about `count` photons along a length in metres, told for each medium: the
+    /// median of what the distances to the `count`-th nearest neighbours of up to `probes` photons, spread evenly through the
+    /// map, say of the photons' density. `None` for a map of fewer than `count` photons.
+    pub fn typical_radius(
+        &self,
+        count: usize,
+        length: impl Fn(u32) -> f64,
+        probes: usize,
+        scratch: &mut Scratch,
+    ) -> Option<f64> {
         let step = (self.len() / probes.max(1)).max(1);
-        let found: &mut Neighbours = scratch.neighbours();
-        let mut radii: Vec<f32> = (0..self.len())
+        let found = scratch.neighbours();
+        let mut radii: Vec<f64> = (0..self.len())
             .step_by(step)
             .filter_map(|index| {
-                self.tree.nearest(self.tree.point(index), k, f32::INFINITY, found);
-                let full = found.len() == k;
-                found.farthest_squared().filter(|_| full).map(f32::sqrt)
+                self.tree.nearest(self.tree.point(index), count, f32::INFINITY, found);
+                let full = found.len() == count;
+                let ball = f64::from(found.farthest_squared().filter(|_| full)?).sqrt();
+                // A ball and a cylinder of like volume hold as many.
+                Some((4.0 / 3.0 * ball.powi(3) / length(self.tree.payloads()[index].medium)).sqrt())
             })
             .collect();
-        radii.sort_by(f32::total_cmp);
-        radii.get(radii.len() / 2).map(|&r| f64::from(r)).filter(|&r| r > 0.0)
+        radii.sort_by(f64::total_cmp);
+        radii.get(radii.len() / 2).copied().filter(|&radius| radius > 0.0)
     }
 }
 
