@@ -8,27 +8,38 @@ use photonlab_photometry::{Colour, Photon};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
+use crate::{
+    EyeLimits, InScattering, Light, Start, VolumeMaps, collision::around_lamp_in_medium, segment, segment::Emitted,
+};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
 
 /// A map and the radius with which it is read.
-#[derive(Clone, Copy)]
-pub struct MapWithRadius<'m, const C: usize> {
+pub struct MapWithRadius<'m, M> {
     /// The photons.
-    pub map: &'m PhotonMap<C>,
+    pub map: &'m M,
     /// Metres.
     pub radius: f64,
 }
+
+impl<M> Clone for MapWithRadius<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for MapWithRadius<'_, M> {}
 
 /// The maps that final gather reads.
 #[derive(Clone, Copy)]
 pub struct GatherMaps<'m, const C: usize> {
     /// All photons; `None` if no light is reflected diffusely onto anything.
-    pub surface: Option<MapWithRadius<'m, C>>,
+    pub surface: Option<MapWithRadius<'m, PhotonMap<C>>>,
     /// Photons that came through specular surfaces alone; `None` if there are none.
-    pub caustic: Option<MapWithRadius<'m, C>>,
+    pub caustic: Option<MapWithRadius<'m, PhotonMap<C>>>,
+    /// Photons in media; `None` if no medium scatters.
+    pub volume: Option<VolumeMaps<'m, C>>,
 }
 
 /// Final gather over maps, or path tracing without.
@@ -71,16 +82,24 @@ impl<const C: usize> Gatherer<'_, C> {
                 break;
             }
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+            stream.leave_prefix();
+            let (direction, share) = self.turned_to_lamp(&at, &sight, direction, stream);
             let cosine = sight.normals.cosine(direction);
             if cosine == 0.0 {
                 break;
             }
-            weight = weight * sight.weight(cosine);
-            stream.leave_prefix();
+            weight = weight * (share * sight.weight(cosine));
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
-            let start =
-                Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps, medium: sight.medium };
+            let start = Start {
+                ray,
+                from: Some(at.primitive),
+                reach: f64::INFINITY,
+                used,
+                seeks_lamps,
+                medium: sight.medium,
+                in_scattering: self.in_scattering(),
+            };
             let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
@@ -88,10 +107,7 @@ impl<const C: usize> Gatherer<'_, C> {
                 let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
-            if !landing.scattered.is_zero() {
-                let contribution = Light { irradiance: landing.scattered * PI, ..Light::default() };
-                light.add(&contribution.weighted(weight));
-            }
+            light.add(&landing.scattered.weighted(weight * PI));
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
                 let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
@@ -119,6 +135,26 @@ impl<const C: usize> Gatherer<'_, C> {
             (at, sight) = (hit.point, seen);
         }
         light
+    }
+
+    /// Without maps, half of the rays from a point are drawn around a lamp without extent, if one that stands in a medium is
+    /// chosen (see [`AroundPoint`](photonlab_sampling::AroundPoint)): the direction, and its density by the cosine over that by
+    /// which it was drawn.
+    fn turned_to_lamp(&self, at: &SurfacePoint, sight: &Sight<C>, drawn: DVec3, stream: &mut Stream) -> (DVec3, f64) {
+        let lamps = &self.optics.lamps;
+        if self.maps.is_some() || self.world.scene.media.is_empty() || lamps.lamps.is_empty() {
+            return (drawn, 1.0);
+        }
+        let lamp = lamps.choose(stream.next());
+        let Some(around) = around_lamp_in_medium(self.optics, lamp, at.position) else { return (drawn, 1.0) };
+        let direction = if stream.next() < 0.5 { around.draw(stream) } else { drawn };
+        let by_cosine = warp::cosine_hemisphere_pdf_solid_angle(sight.normals.cosine(direction));
+        (direction, by_cosine / (0.5 * by_cosine + 0.5 * around.pdf_solid_angle(direction)))
+    }
+
+    /// How light that media scatter into a gather ray is found.
+    fn in_scattering(&self) -> InScattering<'_, C> {
+        self.maps.and_then(|maps| maps.volume).map_or(InScattering::ByPaths, InScattering::Gathered)
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
@@ -170,7 +206,7 @@ impl<const C: usize> Gatherer<'_, C> {
 
     fn read(
         &self,
-        source: &MapWithRadius<'_, C>,
+        source: &MapWithRadius<'_, PhotonMap<C>>,
         at: &SurfacePoint,
         sight: &Sight<C>,
         used: u32,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_final_gather::{EyeLimits, Gatherer, Light, Start, estimate, follow};
+use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Start, estimate, follow};
 use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
@@ -78,11 +78,12 @@ impl<const C: usize> Look<'_, C> {
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y], [z, last]),
         };
         let medium = self.world.scene.sensors[cell.sensor].medium;
-        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium };
+        let in_scattering = self.in_scattering();
+        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium, in_scattering };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
-        let emitted =
-            landing.emitted + landing.scattered + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
-        let mut light = Light { irradiance: emitted, ..Light::default() };
+        let mut light = landing.scattered;
+        light.irradiance += landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
+        let emitted = light.irradiance;
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {
             let seed = Seed { first, sample, shift, share: 0.0 };
@@ -91,6 +92,18 @@ impl<const C: usize> Look<'_, C> {
         }
         let may_be_lit = landing.met_rough || matte.is_some_and(|_| self.limits().allows(landing.segments + 1));
         Sample { light, dark: emitted.is_zero() && !may_be_lit }
+    }
+
+    /// How light that media scatter into a ray from an eye or a meter is found.
+    fn in_scattering(&self) -> InScattering<'_, C> {
+        let draws_lamps = self.settings.direct == Direct::Sampled;
+        match (self.settings.method, self.maps.volume_maps()) {
+            (Method::Path | Method::Bins, _) | (_, None) => InScattering::ByPaths,
+            (Method::FinalGather { .. }, Some(maps)) => InScattering::ByLook(maps),
+            (Method::Nearest { .. } | Method::Radius { .. }, Some(maps)) => {
+                InScattering::FromMap { map: maps.all, draws_lamps }
+            }
+        }
     }
 
     fn stream(&self, index: u64) -> Stream {

@@ -115,7 +115,7 @@ impl<const C: usize> Session<'_, C> {
     fn uses_maps(&self) -> bool {
         match self.settings.method {
             Method::Path | Method::Bins => false,
-            Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic,
+            Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic || self.needs.in_scattering,
             Method::Nearest { .. } | Method::Radius { .. } => {
                 self.settings.classes().direct || self.needs.indirect || self.needs.caustic
             }
