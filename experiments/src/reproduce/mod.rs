@@ -18,6 +18,7 @@ mod placed;
 mod ray_curves;
 mod report;
 mod search;
+mod slab;
 mod split_charts;
 mod split_rules;
 mod split_times;
