@@ -23,8 +23,11 @@ pub(super) struct Rule {
     pub(super) seed: u64,
     /// Wall time for a first reading of one scene by one way.
     pilot_seconds: f64,
-    /// Wall time per meter for the reading that counts, shared by all meters of a scene that are read by one way.
+    /// Wall time per meter for the reading that counts, shared by all meters of a scene that are read by one way. Meters
+    /// that would need more than [`Rule::most_paths`] have this time together.
     seconds: f64,
+    /// Paths beyond which a reading may stay wider than wanted.
+    pub(super) most_paths: f64,
     /// Wanted half-width over the value.
     pub(super) precision: f64,
     /// The same where flux is read.
@@ -72,7 +75,8 @@ pub(super) struct Attempt {
     pub(super) measured: Vec<Option<Interval>>,
     /// Paths from lamps, and from this meter.
     pub(super) paths: u64,
-    /// Widest half-width over the value, by what was found however little that is; infinite if that is nothing.
+    /// Widest half-width over the value, by what was found however little that is; infinite if that is nothing, or if the
+    /// bound on the bias alone is beyond what is wanted, which more of the same does not mend.
     promise: f64,
     /// Wall time of the run, which read other meters too.
     seconds: f64,
@@ -86,7 +90,7 @@ impl Attempt {
 
     /// Paths after which the half-width would be `precision` times the value.
     pub(super) fn paths_to(&self, precision: f64) -> f64 {
-        self.paths as f64 * (self.width() / precision).powi(2)
+        self.paths as f64 * (self.promise / precision).powi(2)
     }
 
     fn seconds_to(&self, precision: f64) -> f64 {
@@ -127,13 +131,16 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec
         let reading = attempts.remove(place);
         readings.push(MeterReadings { cell: cell.clone(), precision, reading, others: attempts });
     }
-    for way in Way::ALL {
+    // Meters that found nothing yet are read apart: they would keep the others from an end.
+    for (way, found) in Way::ALL.into_iter().flat_map(|way| [(way, true), (way, false)]) {
         let is_due = |i: &usize| {
             let r = &readings[*i];
-            r.reading.way == way && r.reading.width() > r.precision && r.reading.promise.is_finite()
+            r.reading.way == way && r.reading.width() > r.precision && r.reading.promise.is_finite() == found
         };
         let due: Vec<usize> = (0..cells.len()).filter(is_due).collect();
-        let end = (finest(&due), rule.seconds * due.len() as f64);
+        let within_reach = |i: &&usize| readings[**i].reading.paths_to(precisions[**i]) <= rule.most_paths;
+        let meters = due.iter().filter(within_reach).count().max(1);
+        let end = (finest(&due), rule.seconds * meters as f64);
         for (i, attempt) in attempt::<C>(lab, &cells, &due, way, rule.seed + 1, end)? {
             readings[i].reading = attempt;
         }
@@ -178,11 +185,15 @@ fn attempt<const C: usize>(
     let seconds = start.elapsed().as_secs_f64();
     let of_meter = |result: &CellResult<C>| {
         let found: Vec<_> = (0..outcome.results).map(|channel| interval(result, channel)).collect();
+        let biased = (0..outcome.results).any(|channel| {
+            let value = result.value[channel].mean().unwrap_or(0.0);
+            result.bias_bound_within(channel, 0.0) > precision * value.abs()
+        });
         // Few counts have no normal mean: a reading that rests on them is not judged, whatever its spread says.
         let rests_on_few = way == Way::Counting && result.photons < FEWEST_PHOTONS;
         Attempt {
             way,
-            promise: widest(&found),
+            promise: if biased { f64::INFINITY } else { widest(&found) },
             measured: if rests_on_few { vec![None; found.len()] } else { found },
             paths: outcome.photons + outcome.samples,
             seconds,

@@ -19,16 +19,13 @@ use crate::{
 
 /// Share of an answer that rounding may cost in sums of millions of terms.
 const ROUNDING: f64 = 1e-9;
-/// Paths beyond which a reading may stay wider than wanted.
-const MOST_PATHS: f64 = 1e9;
-
 /// How many readings came out how.
 #[derive(Default)]
 struct Tally {
     right: usize,
     /// Nothing found where nothing is expected.
     dark: usize,
-    /// Wider than wanted, which more than [`MOST_PATHS`] paths would mend.
+    /// Wider than wanted, which only more paths than [`Rule::most_paths`] would mend.
     costly: usize,
     wide: usize,
     /// First readings by other ways that hold the answer.
@@ -48,6 +45,7 @@ struct Reading<'c> {
     channel: &'static str,
     truth: f64,
     precision: f64,
+    most_paths: f64,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
@@ -74,7 +72,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             };
             let along = place as f64 + 0.6 + 0.8 * (number as f64 + 0.5) / cases.len() as f64;
             for meter in by_channels!(lab.needs.channels, read(&lab, &rule))? {
-                compare(&lab, (entry, case), &meter, along, &mut found, &mut tally, &mut series)?;
+                compare(&lab, &rule, (entry, case), &meter, along, &mut found, &mut tally, &mut series)?;
             }
         }
         let title = format!("{} {}", entry.id, entry.title);
@@ -102,8 +100,10 @@ fn put_down(case: &Case, path: &Path) -> anyhow::Result<()> {
 }
 
 /// One meter's readings against its answer.
+#[expect(clippy::too_many_arguments, reason = "what was read, and where the findings go")]
 fn compare(
     lab: &Lab,
+    rule: &Rule,
     (entry, case): (&Entry, &Case),
     meter: &MeterReadings,
     along: f64,
@@ -123,6 +123,7 @@ fn compare(
             channel: if channels == 1 { "" } else { [" R", " G", " B"][channel] },
             truth: answer.value[channel.min(answer.value.len() - 1)],
             precision: meter.precision,
+            most_paths: rule.most_paths,
         };
         reading.judge(&meter.reading, channel, found, tally);
         meter.others.iter().for_each(|other| reading.confirm(other, channel, found, tally));
@@ -164,7 +165,7 @@ impl Reading<'_> {
             }
             (_, Some(m)) => {
                 let needed = attempt.paths_to(self.precision);
-                if needed > MOST_PATHS {
+                if needed > self.most_paths {
                     tally.costly += 1
                 } else {
                     tally.wide += 1
@@ -263,7 +264,10 @@ impl Tally {
         };
         count(self.dark, "find nothing where nothing is expected");
         count(self.wide, "hold it with a wider one");
-        count(self.costly, "hold it with a wider one, since the wanted one would need more than 1e9 paths");
+        count(
+            self.costly,
+            "hold it with a wider one, since the wanted one would need more paths than the definition asks for",
+        );
         count(self.confirmed, "wider readings by other ways confirm it");
         for (list, what) in [(&self.wrong, "do not hold it"), (&self.unread, "found too little")] {
             if !list.is_empty() {
