@@ -48,7 +48,7 @@ pub fn box_flux([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], reach: f64) -> f64 {
 /// The mirror of radius 1 and height 1 with the sun at 45 degrees, `E_h = 1`, and a meter that reads the flux on one box of
 /// the floor, direct sun included.
 ///
-/// The mirror is a whole cylinder; black plates far outside keep the sun from all but 45 degrees to either side, and the
+/// The mirror is a whole cylinder; black plates at its near side keep the sun from all but 45 degrees to either side, and the
 /// sun passes over the near wall, whose shadow ends before `x = 0.05` for `|y| < 0.3`.
 fn case(x: [f64; 2], y: [f64; 2]) -> Case {
     let ends = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
@@ -56,8 +56,8 @@ fn case(x: [f64; 2], y: [f64; 2]) -> Case {
     draft.add(&mitsuba::inside_cylinder("mirror", ends, 1.0, mitsuba::PERFECT_MIRROR));
     let edge = FRAC_PI_4.sin();
     for side in [-1.0, 1.0] {
-        let centre = [-3.0, side * (edge + 0.5), 3.5];
-        draft.wall(Place { centre, normal: [-1.0, 0.0, 0.0], up: [0.0, 0.0, 1.0], half: [0.5, 2.5] });
+        let centre = [-1.001, side * (edge + 0.15), 1.75];
+        draft.wall(Place { centre, normal: [-1.0, 0.0, 0.0], up: [0.0, 0.0, 1.0], half: [0.15, 1.25] });
     }
     let half = [0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])];
     let place = Place::floor([0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]), 0.0], half);

@@ -99,6 +99,9 @@ pub(crate) fn sky(general: Option<u8>, zenith: f64) -> String {
     format!("  <emitter type=\"sky\">{law}<rgb name=\"radiance\" value=\"{zenith}\"/></emitter>\n")
 }
 
+/// Aims the environment's light through the rectangle it is put on, along its normal (an extension).
+pub(crate) const PORTAL: &str = "<emitter type=\"portal\"/>";
+
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
     format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
