@@ -60,7 +60,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("reflected flux, Cornell box", 21),
     ("reflected flux, ball lens", 1),
     ("roulette", 8),
-    ("books of every scene", 190),
+    ("books of every scene", 203),
     ("books of hard scenes", 7),
     ("light guide", 1),
     ("trapped light", 3),

@@ -150,7 +150,7 @@ fn a_path_limit_is_obeyed_to_the_segment() {
 }
 
 /// Photons of each of [`PASSES`] passes of every scene.
-const FEW: u64 = 64;
+const FEW: u64 = 32;
 
 /// What is one flux counted in two ways, in one scene: to rounding where no chance is between them, else by Student's t of
 /// each surface and channel, the least likely of which is compared (Sidak).
@@ -279,7 +279,7 @@ fn the_books_of_hard_scenes_agree() {
         // What arrives on the wall of an integrating sphere in all is the flux over 1 - rho.
         let rho: f64 = [0.999, 0.8, 0.8, 0.0][number];
         if rho > 0.0 {
-            let ledgers = ledgers::<1>(&lab, 1000, seed(450 + number as u32));
+            let ledgers = ledgers::<1>(&lab, 250, seed(450 + number as u32));
             let incident: Replicates = ledgers.iter().map(|l| l.surfaces[0].incident[0] / l.emitted[0]).collect();
             family.mean(format!("{name}: incident"), &incident, 1.0 / (1.0 - rho));
         }
@@ -308,8 +308,8 @@ fn a_light_guide_of_a_hundred_widths_passes_what_a_pane_does() {
         let ledger = lab.trace_within::<1>(1000, seed(460), pass, Classes::NONE, limits).ledger;
         assert_eq!(ledger.total().cut_off[0], 0.0, "nothing is trapped for good");
         let (total, emitted) = (ledger.total(), ledger.emitted[0]);
-        // What slips between the lamp and the guide's end is a part in a million.
-        assert!(total.escaped[0] < 1e-3 * emitted, "escaped {}", total.escaped[0] / emitted);
+        // Between the lamp and the guide's end one photon in 250 000 slips out: three of one pass once in 10^6 runs.
+        assert!(total.escaped[0] < 2.5e-3 * emitted, "escaped {}", total.escaped[0] / emitted);
         ledger.surfaces[1].incident[0] / emitted
     });
     let passed: Replicates = passed.collect();
