@@ -1,5 +1,7 @@
 //! `photonlab reproduce`: claims to records, figures and a report.
 
+mod caustic_flux;
+mod caustic_profile;
 mod claims;
 mod context;
 mod cpu_clock;
@@ -16,6 +18,7 @@ mod lab;
 mod photon_set;
 mod placed;
 mod ray_curves;
+mod receivers;
 mod report;
 mod search;
 mod split_charts;
