@@ -85,6 +85,11 @@ pub const SUITE: &[(&str, usize)] = &[
     ("disc lamp", 4),
     ("mesh lamp", 8),
     ("paraboloid", 4),
+    ("light guide", 2),
+    ("port sphere", 4),
+    ("condenser", 4),
+    ("spectrograph", 11),
+    ("reflector", 4),
     ("tilted squares", 10),
     ("smooth ball", 3),
 ];

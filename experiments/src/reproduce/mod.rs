@@ -2,6 +2,8 @@
 
 mod case_judgement;
 mod case_reading;
+mod caustic_flux;
+mod caustic_profile;
 mod claims;
 mod context;
 mod cpu_clock;
@@ -18,6 +20,7 @@ mod lab;
 mod photon_set;
 mod placed;
 mod ray_curves;
+mod receivers;
 mod report;
 mod search;
 mod slab;
