@@ -6,7 +6,7 @@ use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Start, es
 use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
-use photonlab_scene::{SurfacePoint, World};
+use photonlab_scene::{Ray, SurfacePoint, World};
 
 use crate::{
     Cell, Direct, Method, Settings, Target,
@@ -80,6 +80,9 @@ impl<const C: usize> Look<'_, C> {
         let medium = self.world.scene.sensors[cell.sensor].medium;
         let in_scattering = self.in_scattering();
         let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium, in_scattering };
+        let hides_lamps = self.world.scene.hides_lamps && matches!(cell.target, Target::Pixel { .. });
+        let start = if hides_lamps { self.past_lamps(start) } else { Some(start) };
+        let Some(start) = start else { return Sample { light: Light::default(), dark: true } };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
         let mut light = landing.scattered;
         light.irradiance += landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
@@ -103,6 +106,20 @@ impl<const C: usize> Look<'_, C> {
             (Method::Nearest { .. } | Method::Radius { .. }, Some(maps)) => {
                 InScattering::FromMap { map: maps.all, draws_lamps }
             }
+        }
+    }
+
+    /// The ray from behind the shapes that shine before the first that does not; `None` if there is none.
+    fn past_lamps<'m>(&self, mut start: Start<'m, C>) -> Option<Start<'m, C>> {
+        loop {
+            let hit = self.world.cast(&start.ray, start.from, start.reach)?;
+            let primitive = hit.point.primitive;
+            if self.world.shape_of(primitive).radiance.is_none() {
+                return Some(start);
+            }
+            start.medium = self.world.medium_beside(primitive, !hit.front, start.medium);
+            start.ray = Ray::new(hit.point.position, start.ray.direction);
+            (start.from, start.reach) = (Some(primitive), start.reach - hit.distance);
         }
     }
 
