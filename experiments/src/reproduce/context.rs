@@ -46,7 +46,7 @@ impl Context {
     /// A folder of this run for files that are not part of the record.
     pub(super) fn folder(&self, name: &str) -> anyhow::Result<PathBuf> {
         let path = self.out.join(name);
-        std::fs::create_dir_all(&path)?;
+        crate::interrupt::make_folder(&path)?;
         Ok(path)
     }
 

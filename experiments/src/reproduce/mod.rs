@@ -55,7 +55,7 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     check_entries(&claims, &arguments.entries)?;
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("target/reproduce").join(budget.name()));
     for folder in ["records", "records/images", "figures"] {
-        std::fs::create_dir_all(out.join(folder)).map_err(|error| {
+        interrupt::make_folder(&out.join(folder)).map_err(|error| {
             Failure::usage(format!(
                 "--out {}: cannot make {folder} there: {error}; choose a writable folder",
                 out.display()
