@@ -148,7 +148,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     /// allocate.
     pub fn near_segment(&self, ends: [[f32; 3]; 2], radius: f32, visit: impl FnMut(usize, f64)) {
         let coordinates = || ends.iter().flatten();
-        if !(radius >= 0.0) || self.is_empty() || !coordinates().all(|c| c.is_finite()) {
+        if radius.is_nan() || radius < 0.0 || self.is_empty() || !coordinates().all(|c| c.is_finite()) {
             return;
         }
         let segment = Segment::new(ends);
