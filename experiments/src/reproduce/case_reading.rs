@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use photonlab_gather::AreaModel;
 use photonlab_measure::Interval;
 use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
+use photonlab_scene::Emitter;
 use photonlab_trace::Limits;
 use serde::Deserialize;
 
@@ -13,8 +14,8 @@ use super::lab::Lab;
 /// Confidence of every interval.
 pub(super) const CONFIDENCE: f64 = 0.9999;
 
-/// Photons below which a counted reading is not judged.
-const FEWEST_PHOTONS: f64 = 1000.0;
+/// Photons counted, or points of a meter from which rays were followed, below which a reading is not judged.
+const FEWEST: f64 = 1000.0;
 
 /// How scenes are read.
 #[derive(Deserialize)]
@@ -61,9 +62,17 @@ impl Way {
         }
     }
 
-    /// Photons are counted where they land, so only surfaces count them.
-    fn can_read(self, cell: &Cell) -> bool {
-        self != Way::Counting || matches!(cell.target, Target::Patch { .. })
+    /// Photons are counted where they land, so only surfaces count them. Paths from a meter through mirrors and glass never
+    /// meet a lamp without extent, and would read as if they were black.
+    fn can_read(self, lab: &Lab, cell: &Cell) -> bool {
+        match self {
+            Way::Counting => matches!(cell.target, Target::Patch { .. }),
+            Way::FinalGather => true,
+            Way::PathTracing => {
+                let without_extent = |emitter: &Emitter| !matches!(emitter, Emitter::Environment { .. });
+                !(lab.needs.caustic && lab.world.scene.emitters.iter().any(without_extent))
+            }
+        }
     }
 }
 
@@ -117,7 +126,7 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec
     let finest = |of: &[usize]| of.iter().map(|&i| precisions[i]).fold(f64::INFINITY, f64::min);
     let mut attempts: Vec<Vec<Attempt>> = vec![Vec::new(); cells.len()];
     for way in Way::ALL {
-        let readable: Vec<usize> = (0..cells.len()).filter(|&i| way.can_read(&cells[i])).collect();
+        let readable: Vec<usize> = (0..cells.len()).filter(|&i| way.can_read(lab, &cells[i])).collect();
         let end = (finest(&readable), rule.pilot_seconds);
         for (i, attempt) in attempt::<C>(lab, &cells, &readable, way, rule.seed, end)? {
             attempts[i].push(attempt);
@@ -126,7 +135,7 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec
     let mut readings: Vec<MeterReadings> = Vec::with_capacity(cells.len());
     for ((cell, mut attempts), &precision) in cells.iter().zip(attempts).zip(&precisions) {
         let soonest = |a: &&Attempt, b: &&Attempt| a.seconds_to(precision).total_cmp(&b.seconds_to(precision));
-        let chosen = attempts.iter().min_by(soonest).expect("rays read every meter").way;
+        let chosen = attempts.iter().min_by(soonest).expect("final gather reads every meter").way;
         let place = attempts.iter().position(|attempt| attempt.way == chosen).expect("it is one of them");
         let reading = attempts.remove(place);
         readings.push(MeterReadings { cell: cell.clone(), precision, reading, others: attempts });
@@ -189,8 +198,10 @@ fn attempt<const C: usize>(
             let value = result.value[channel].mean().unwrap_or(0.0);
             result.bias_bound_within(channel, 0.0) > precision * value.abs()
         });
-        // Few counts have no normal mean: a reading that rests on them is not judged, whatever its spread says.
-        let rests_on_few = way == Way::Counting && result.photons < FEWEST_PHOTONS;
+        // Few counts have no normal mean, and few points may all see the same: a reading that rests on them is not judged,
+        // whatever its spread says.
+        let rests_on = if way == Way::Counting { result.photons } else { outcome.samples as f64 };
+        let rests_on_few = rests_on < FEWEST;
         Attempt {
             way,
             promise: if biased { f64::INFINITY } else { widest(&found) },
