@@ -77,6 +77,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("dispersive furnace", 2),
     ("white furnace, media", 18),
     ("absorbing slab", 3),
+    ("lamp above fog", 2),
     ("hazy room", 6),
     ("forward slab", 6),
     ("fluence in balls", 3),
