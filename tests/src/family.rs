@@ -86,7 +86,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("disc lamp", 4),
     ("mesh lamp", 8),
     ("paraboloid", 4),
-    ("light guide", 2),
+    ("light guide, lamp before it", 2),
     ("port sphere", 4),
     ("condenser", 4),
     ("spectrograph", 11),
