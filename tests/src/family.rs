@@ -221,3 +221,16 @@ impl Drop for Family {
         assert!(self.decided || std::thread::panicking(), "the family `{}` was never decided", self.name);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two families of one name would share a number of comparisons.
+    #[test]
+    fn no_family_is_named_twice() {
+        let mut names: Vec<_> = SUITE.iter().map(|(name, _)| name).collect();
+        names.sort_unstable();
+        assert!(names.windows(2).all(|pair| pair[0] != pair[1]), "{names:?}");
+    }
+}
