@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use photonlab_measure::{Axis, Expected, FigureData, Point, Replicates, Series, SeriesKind};
+use photonlab_measure::{Axis, Expected, FigureData, Interval, Point, Replicates, Series, SeriesKind};
 use photonlab_photometry::{Palette, PathClass};
 use photonlab_readout::{Cell, Method, Settings, Wanted, trace_pass};
 use photonlab_reference::{ball_lens::BallLens, mirror_arc};
@@ -12,6 +12,7 @@ use photonlab_trace::Classes;
 use super::{
     context::Findings,
     lab::Lab,
+    ray_curves::CONFIDENCE,
     strategy::Strategy,
     table::{Table, row},
 };
@@ -61,9 +62,10 @@ impl Kept {
         }
     }
 
-    /// Mean error of the read flux.
-    pub(super) fn read_error(&self) -> Option<f64> {
-        Some(self.read.mean()? - 1.0)
+    /// Relative error of the read flux, with its 99 % interval.
+    pub(super) fn read_error(&self) -> Option<Interval> {
+        let read = self.read.interval(CONFIDENCE)?;
+        Some(Interval { value: read.value - 1.0, low: read.low - 1.0, high: read.high - 1.0, ..read })
     }
 
     pub(super) fn figure(rings: &[Kept], boxes: &[Kept], table: &Table) -> FigureData {

@@ -21,8 +21,9 @@ impl BallLens {
         for order in self.orders().take(21) {
             for ray in 0..RAYS {
                 let i = 0.5 * PI * (f64::from(ray) + 0.5) / f64::from(RAYS);
-                if let Some(x) = order.lands(i) {
-                    sum += order.share(i) * (2.0 * i).sin() * inside(x.abs() * self.radius);
+                let part = order.lands(i).map_or(0.0, |x| inside(x.abs() * self.radius));
+                if part > 0.0 {
+                    sum += order.share(i) * (2.0 * i).sin() * part;
                 }
             }
         }

@@ -70,10 +70,13 @@ impl DiscLamp {
     /// falls all the way from 0 to pi.
     fn seen(&self, centre: Vector, axis: Vector, angle: f64, b: f64) -> [f64; 2] {
         let aside = [axis[2], 0.0, -axis[0]];
+        let (sine, cosine) = angle.sin_cos();
         let meets = |phi: f64| {
-            let lateral = [phi.cos() * aside[0], phi.sin(), phi.cos() * aside[2]];
-            let turned = |angle: f64| along(axis.map(|c| angle.cos() * c), angle.sin(), lateral);
-            let (out, from) = (turned(angle), along(centre, b, turned(angle + 0.5 * PI)));
+            let (across, along_aside) = phi.sin_cos();
+            let lateral = [along_aside * aside[0], across, along_aside * aside[2]];
+            let out = along(axis.map(|c| cosine * c), sine, lateral);
+            // A quarter turn on from the direction.
+            let from = along(centre, b, along(axis.map(|c| -sine * c), cosine, lateral));
             let at = along(from, (self.height - from[2]) / out[2], out);
             out[2] > 0.0 && (at[0] - centre[0]).hypot(at[1]) < self.radius
         };

@@ -129,15 +129,20 @@ fn verdict(rings: &[Kept], profiles: &[Profile], ratios: &[Option<Interval>]) ->
     let [Some(large), Some(small)] = ratios else {
         return (Verdict::NotMeasured, "the time at equal error could not be measured".into());
     };
-    let worst = rings.iter().filter_map(Kept::read_error).fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });
+    let errors = rings.iter().filter_map(Kept::read_error);
+    let Some(worst) = errors.max_by(|a, b| a.value.abs().total_cmp(&b.value.abs())) else {
+        return (Verdict::NotMeasured, "no ring was read".into());
+    };
     let finest = profiles.last().expect("a definition has a radius");
     let beside = BesideFold::over(finest.blur);
     let reason = format!(
-        "counted photons carry the ray-optical flux, and rings read from the map are off by at most {:+.2} %; beside a fold the \
+        "counted photons carry the ray-optical flux, and rings read from the map are off by at most {:+.2} % ({:+.2} to {:+.2}); beside a fold the \
          reading is the mean over the gather disc: more than 5 % off up to {:.1} radii from it (radius {} m), half a radius \
-         inside {:.2} times and half a radius outside {:.1} times the irradiance. At equal error it takes {:.3} ({:.3} to {:.3}) times as long as path tracing under a \
-         lamp of {} m and {:.4} ({:.4} to {:.4}) under one of {} m; parallel light no path finds at all",
-        100.0 * worst,
+         inside {:.2} times and half a radius outside {:.1} times the irradiance. At equal error it takes {:.2} ({:.2} to {:.2}) times as long as path tracing under a \
+         lamp of {} m and {:.2} ({:.2} to {:.2}) under one of {} m, and parallel light no path finds at all",
+        100.0 * worst.value,
+        100.0 * worst.low,
+        100.0 * worst.high,
         beside.reach,
         finest.blur,
         beside.half_a_radius[0],
