@@ -69,8 +69,8 @@ impl Pane {
         let mut draft = self.start(plate, HALF_IN_BEAM);
         draft.add(&mitsuba::parallel_light([sine, 0.0, -cosine], &[1.0]));
         let value = cosine * self.transmittance(cosine, Polarisation::Reset);
-        let uncertainty = 1e-12 + self.lateral_loss(cosine, HALF_IN_BEAM);
-        draft.square(Place::floor([0.0; 3], [0.5; 2]), uncertainty, |_| value);
+        let uncertainty = 1e-12 + self.lateral_loss(cosine, HALF_IN_BEAM - METER_IN_BEAM);
+        draft.square(Place::floor([0.0; 3], [METER_IN_BEAM; 2]), uncertainty, |_| value);
         draft.case(format!("{degrees} degrees, {}", name(plate)))
     }
 
@@ -85,7 +85,7 @@ impl Pane {
         let value = PI * self.diffuse_transmittance(Polarisation::Reset);
         // Directions that miss the lid: cos^2 < (gap / distance to the wall)^2.
         let missed = PI * (GAP / (HALF - 0.5)).powi(2);
-        draft.square(Place::floor([0.0; 3], [0.5; 2]), missed + self.lateral_loss(0.0, HALF), |_| value);
+        draft.square(Place::floor([0.0; 3], [0.5; 2]), missed + self.lateral_loss(0.0, HALF - 0.5), |_| value);
         draft.case(format!("diffuse, {}", name(plate)))
     }
 
@@ -100,22 +100,24 @@ impl Pane {
         }
     }
 
-    /// What light that wanders inside the plate up to its rim before it comes down could add to the reading, relative to
-    /// light that falls on the pane: `R^k` after the `k` crossings that lead there, averaged over incidence.
-    fn lateral_loss(&self, cosine: f64, half: f64) -> f64 {
+    /// What light that wanders inside the plate up to its rim, `margin` metres beyond the meter, before it comes down could
+    /// add to the reading, relative to light that falls on the pane: `R^k` after the `k` crossings that lead there, averaged
+    /// over incidence.
+    fn lateral_loss(&self, cosine: f64, margin: f64) -> f64 {
         let inside = (1.0 - (1.0 - cosine * cosine) / (self.index * self.index)).sqrt();
         let per_crossing = THICKNESS * (1.0 - inside * inside).sqrt() / inside;
-        let crossings = (half - 0.5) / per_crossing;
+        let crossings = margin / per_crossing;
         // Near grazing incidence 1 - R falls to zero in proportion to the cosine, and so does the light let in.
         let kept = |mu: f64| 2.0 * mu * fresnel::unpolarised(mu, self.index).powf(crossings - 1.0);
         if cosine > 0.0 { kept(cosine) } else { Gauss::new(40).composite(0.0, 1.0, 50, kept) }
     }
 }
 
-/// Half-edge of the pane under an environment and in parallel light, which a wider one would waste, its height above the
-/// meter, and the plate's thickness, in metres.
+/// Half-edge of the pane under an environment and in parallel light, which a wider one would waste, that of the meter in
+/// parallel light, the pane's height above the meter, and the plate's thickness, in metres.
 const HALF: f64 = 5.0;
 const HALF_IN_BEAM: f64 = 1.0;
+const METER_IN_BEAM: f64 = 0.8;
 const GAP: f64 = 0.005;
 const THICKNESS: f64 = 0.005;
 

@@ -117,14 +117,13 @@ impl Reading<'_> {
             }
         };
         comparison = comparison.with_note(note);
-        found.rows.push(self.row(attempt, measured, "reading"));
+        found.rows.push(self.row(attempt, measured));
         found.comparisons.push(comparison);
     }
 
     /// A first reading by another way, wider as a rule: does its interval hold the answer?
     fn confirm(&self, attempt: &Attempt, channel: usize, found: &mut Findings, tally: &mut Tally) {
         let measured = attempt.measured[channel];
-        found.rows.push(self.row(attempt, measured, "confirmation"));
         let Some(m) = measured else { return };
         let label = self.label(attempt);
         let comparison = self.comparison(&label, measured).with_note(format!("confirmation: {}", self.words(m)));
@@ -165,10 +164,9 @@ impl Reading<'_> {
         format!("{width}{:+.1} standard errors", self.deviation(measured))
     }
 
-    fn row(&self, attempt: &Attempt, measured: Option<Interval>, role: &str) -> Row {
+    fn row(&self, attempt: &Attempt, measured: Option<Interval>) -> Row {
         Row::from([
             ("reading".into(), self.label(attempt).into()),
-            ("role".into(), role.into()),
             ("expected".into(), self.truth.into()),
             ("measured".into(), measured.map(|m| m.value).into()),
             ("half_width".into(), measured.map(|m| m.half_width()).into()),

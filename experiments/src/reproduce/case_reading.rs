@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use photonlab_gather::AreaModel;
-use photonlab_measure::{Interval, normal_quantile};
+use photonlab_measure::{Interval, normal_quantile, student_t_quantile};
 use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
 use photonlab_scene::Emitter;
 use photonlab_trace::Limits;
@@ -13,6 +13,9 @@ use super::lab::Lab;
 
 /// Confidence of every interval.
 pub(super) const CONFIDENCE: f64 = 0.9999;
+
+/// Confidence at which a first reading's spread is believed.
+const LIKELY: f64 = 0.9;
 
 /// Photons counted, or points of a meter from which rays were followed, below which a reading is not judged.
 const FEWEST: f64 = 1000.0;
@@ -229,10 +232,13 @@ fn interval<const C: usize>(result: &CellResult<C>, channel: usize) -> Option<In
     (!result.found_nothing()).then(|| Interval::around(value, half, CONFIDENCE))
 }
 
-/// The same without what Student's t adds where passes are few.
+/// The same with the half-width that this spread would have after many passes. The spread of few passes may be small by
+/// chance, so it is taken at its most within [`LIKELY`], by what Student's t is over a normal quantile there.
 fn promised<const C: usize>(result: &CellResult<C>, channel: usize) -> Option<Interval> {
     let value = result.value[channel].mean()?;
-    let noise = normal_quantile(0.5 + 0.5 * CONFIDENCE) * result.value[channel].std_error()?;
-    let half = noise + result.bias_bound_within(channel, 0.0);
+    let error = result.value[channel].std_error()?;
+    let degrees = result.value[channel].degrees_of_freedom();
+    let spread = error * student_t_quantile(LIKELY, degrees) / normal_quantile(0.5 + 0.5 * LIKELY);
+    let half = normal_quantile(0.5 + 0.5 * CONFIDENCE) * spread + result.bias_bound_within(channel, 0.0);
     (!result.found_nothing()).then(|| Interval::around(value, half, CONFIDENCE))
 }
