@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::{AreaModel, Estimator, Kernel};
 use photonlab_photometry::UnitSystem;
 use photonlab_readout::{Direct, Method, Settings, Wanted};
 use photonlab_scene::Scene;
@@ -50,10 +50,17 @@ impl Options {
             Some(AreaName::Sphere) => AreaModel::Sphere,
             _ => AreaModel::Disc,
         };
+        let kernel = match self.kernel {
+            Some(KernelName::Disc) | None => Kernel::Disc,
+            Some(KernelName::Cone) => Kernel::Cone,
+            Some(KernelName::Epanechnikov) => Kernel::Epanechnikov,
+            Some(KernelName::Biweight) => Kernel::Biweight,
+            Some(KernelName::Gaussian) => Kernel::Gaussian,
+        };
         Ok(Settings {
             method,
             direct,
-            area,
+            estimator: Estimator { kernel, area },
             gather_rays: self.gather_rays.unwrap_or(1),
             seed: self.seed,
             limits: Limits {
@@ -118,7 +125,6 @@ impl Options {
             MethodName::Adaptive => Some("--method adaptive"),
             MethodName::Progressive => Some("--method progressive"),
             _ if self.cache => Some("--cache"),
-            _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => Some("a kernel other than disc"),
             _ if self.area == Some(AreaName::Clipped) => Some("--area clipped"),
             _ if self.device == DeviceName::Gpu => Some("--device gpu"),
             _ => None,

@@ -60,7 +60,7 @@ pub(crate) struct Options {
     /// Gather radius in metres [default: from scene and photons].
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) radius: Option<f64>,
-    /// Weight of a photon by its distance.
+    /// Weight of a photon by its distance [default: disc].
     #[arg(long, value_enum)]
     pub(crate) kernel: Option<KernelName>,
     /// What gathered flux is divided by [default: disc].

@@ -1,6 +1,6 @@
 //! The command that gives the same bits again.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::{AreaModel, Kernel};
 use photonlab_readout::{Direct, Method, Outcome, Settings};
 
 use crate::command::{Options, SceneArguments, UnitsName};
@@ -26,7 +26,14 @@ pub(crate) fn fixed_command<const C: usize>(
     if settings.direct == Direct::Photons {
         option("direct", "photons".into());
     }
-    if settings.area == AreaModel::Sphere {
+    match settings.estimator.kernel {
+        Kernel::Disc => {}
+        Kernel::Cone => option("kernel", "cone".into()),
+        Kernel::Epanechnikov => option("kernel", "epanechnikov".into()),
+        Kernel::Biweight => option("kernel", "biweight".into()),
+        Kernel::Gaussian => option("kernel", "gaussian".into()),
+    }
+    if settings.estimator.area == AreaModel::Sphere {
         option("area", "sphere".into());
     }
     if settings.gather_rays > 1 {

@@ -201,7 +201,7 @@ pub(crate) fn doubt(loaded: &Loaded, settings: &Settings) -> Option<String> {
             100.0 * loaded.leak
         ));
     }
-    if settings.area == photonlab_gather::AreaModel::Sphere {
+    if settings.estimator.area == photonlab_gather::AreaModel::Sphere {
         return Some(
             "the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into(),
         );

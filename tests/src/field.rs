@@ -1,7 +1,7 @@
 //! Synthetic photons: Poisson fields on flat patches and spheres, whose estimates are known without any tracing.
 
 use glam::{DAffine3, DQuat, DVec3};
-use photonlab_gather::{AreaModel, Bandwidth, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
+use photonlab_gather::{Bandwidth, Estimate, Estimator, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::Replicates;
 use photonlab_photometry::{PackedDirection, PathClass, Photon};
@@ -62,15 +62,24 @@ impl Field {
         });
     }
 
+    /// Multiplies every photon's flux by a factor of its place: uneven irradiance from an even field.
+    pub fn shaded(mut self, factor: impl Fn(DVec3) -> f64) -> Self {
+        let back = self.frame.inverse();
+        for (position, photon) in self.positions.iter().zip(&mut self.photons) {
+            photon.flux[0] *= factor(back.transform_point3(DVec3::from(position.map(f64::from)))) as f32;
+        }
+        self
+    }
+
     /// Builds the map and gathers at points with their normals.
     pub fn gather<const N: usize>(
         self,
         at: [(DVec3, DVec3); N],
         bandwidth: Bandwidth,
-        area: AreaModel,
+        estimator: impl Into<Estimator>,
         tests: &Tests,
     ) -> [Estimate<1>; N] {
-        let frame = self.frame;
+        let (frame, estimator) = (self.frame, estimator.into());
         let map = PhotonMap::build(self.positions, self.photons, SplitRule::Median).expect("finite photons");
         let mut scratch = Scratch::default();
         at.map(|(position, normal)| {
@@ -78,7 +87,7 @@ impl Field {
                 position: frame.transform_point3(position).as_vec3().to_array(),
                 normal: frame.transform_vector3(normal).as_vec3().to_array(),
             };
-            map.gather(&point, bandwidth, area, tests, &mut scratch)
+            map.gather(&point, bandwidth, estimator, tests, &mut scratch)
         })
     }
 }

@@ -3,7 +3,9 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
+use photonlab_gather::{
+    AreaModel, Bandwidth, CHECK, Estimate, Estimator, GatherPoint, Kernel, PhotonMap, Scratch, Tests,
+};
 use photonlab_photometry::{Colour, Photon};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
@@ -13,13 +15,15 @@ use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
 
-/// A map and the radius with which it is read.
+/// A map and the radius and kernel with which it is read.
 #[derive(Clone, Copy)]
 pub struct MapWithRadius<'m, const C: usize> {
     /// The photons.
     pub map: &'m PhotonMap<C>,
     /// Metres.
     pub radius: f64,
+    /// How its photons are weighed.
+    pub kernel: Kernel,
 }
 
 /// The maps that final gather reads.
@@ -179,7 +183,9 @@ impl<const C: usize> Gatherer<'_, C> {
         let tests =
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let bandwidth = Bandwidth::Radius(source.radius);
-        let estimate = estimate(source.map, self.world, at, sight, bandwidth, AreaModel::Disc, &tests, scratch);
+        // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
+        let estimator = Estimator { kernel: source.kernel, area: AreaModel::Disc };
+        let estimate = estimate(source.map, self.world, at, sight, bandwidth, estimator, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
@@ -198,19 +204,19 @@ pub fn estimate<const C: usize>(
     at: &SurfacePoint,
     sight: &Sight<C>,
     bandwidth: Bandwidth,
-    area: AreaModel,
+    estimator: Estimator,
     tests: &Tests,
     scratch: &mut Scratch,
 ) -> Estimate<C> {
     let point =
         GatherPoint { position: world.stored(at.position), normal: sight.normals.geometric.as_vec3().to_array() };
     if sight.is_plain() {
-        map.gather(&point, bandwidth, area, tests, scratch)
+        map.gather(&point, bandwidth, estimator, tests, scratch)
     } else {
         let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
         let weigh = |photon: &Photon<C>| {
             sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
         };
-        map.gather_weighed(&point, bandwidth, area, tests, weigh, scratch)
+        map.gather_weighed(&point, bandwidth, estimator, tests, weigh, scratch)
     }
 }

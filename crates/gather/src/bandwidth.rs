@@ -1,4 +1,6 @@
-//! How far to gather, what to divide by, and which photons count.
+//! How far to gather, how to weigh, what to divide by, and which photons count.
+
+use crate::Kernel;
 
 /// Which photons an estimate uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +34,22 @@ impl AreaModel {
             AreaModel::Disc => disc,
             AreaModel::Sphere => 4.0 * disc,
         }
+    }
+}
+
+/// What makes an irradiance of the photons in the ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Estimator {
+    /// The weight of each photon.
+    pub kernel: Kernel,
+    /// What their flux is divided by.
+    pub area: AreaModel,
+}
+
+impl From<AreaModel> for Estimator {
+    /// With the disc for a kernel, as the paper has it.
+    fn from(area: AreaModel) -> Self {
+        Self { kernel: Kernel::Disc, area }
     }
 }
 

@@ -6,8 +6,10 @@
 
 mod bandwidth;
 mod estimate;
+mod kernel;
 mod map;
 
-pub use bandwidth::{AreaModel, Bandwidth, Tests};
+pub use bandwidth::{AreaModel, Bandwidth, Estimator, Tests};
 pub use estimate::Estimate;
+pub use kernel::Kernel;
 pub use map::{CHECK, GatherPoint, PhotonMap, Scratch};

@@ -159,7 +159,7 @@ impl<const C: usize> Look<'_, C> {
             max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
             ..Tests::default()
         };
-        let found = estimate(map, self.world, at, sight, bandwidth, self.settings.area, &tests, scratch);
+        let found = estimate(map, self.world, at, sight, bandwidth, self.settings.estimator, &tests, scratch);
         let reach = match bandwidth {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,

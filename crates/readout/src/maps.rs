@@ -1,7 +1,7 @@
 //! The photons of one pass and the maps made of them.
 
 use photonlab_final_gather::{GatherMaps, MapWithRadius};
-use photonlab_gather::{PhotonMap, Scratch};
+use photonlab_gather::{Kernel, PhotonMap, Scratch};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon};
 use photonlab_sampling::{EmissionPlan, Optics};
@@ -65,6 +65,7 @@ pub(crate) struct PassMaps<const C: usize> {
     pub(crate) surface_radius: f64,
     pub(crate) caustic: Option<PhotonMap<C>>,
     pub(crate) caustic_radius: f64,
+    kernel: Kernel,
 }
 
 /// Radii of the first pass, from which those of all others follow.
@@ -76,7 +77,7 @@ pub(crate) struct Radii {
 
 impl<const C: usize> PassMaps<C> {
     pub(crate) fn none() -> Self {
-        Self { surface: None, surface_radius: 0.0, caustic: None, caustic_radius: 0.0 }
+        Self { surface: None, surface_radius: 0.0, caustic: None, caustic_radius: 0.0, kernel: Kernel::Disc }
     }
 
     /// Builds what the method reads; chooses radii in the first pass and shrinks them in later ones.
@@ -112,13 +113,14 @@ impl<const C: usize> PassMaps<C> {
         };
         let surface_radius = radius(&surface, &mut radii.surface, count);
         let caustic_radius = radius(&caustic, &mut radii.caustic, CAUSTIC_COUNT);
-        Ok(Self { surface, surface_radius, caustic, caustic_radius })
+        Ok(Self { surface, surface_radius, caustic, caustic_radius, kernel: settings.estimator.kernel })
     }
 
     pub(crate) fn gather_maps(&self) -> GatherMaps<'_, C> {
+        let kernel = self.kernel;
         GatherMaps {
-            surface: self.surface.as_ref().map(|map| MapWithRadius { map, radius: self.surface_radius }),
-            caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius }),
+            surface: self.surface.as_ref().map(|map| MapWithRadius { map, radius: self.surface_radius, kernel }),
+            caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius, kernel }),
         }
     }
 }

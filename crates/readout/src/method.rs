@@ -1,6 +1,6 @@
 //! What to do: the method and its settings.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_trace::{Classes, Limits};
 
 /// How light at a diffuse point is found.
@@ -57,8 +57,9 @@ pub struct Settings {
     pub method: Method,
     /// Where direct light comes from (map methods alone).
     pub direct: Direct,
-    /// What gathered flux is divided by (map methods alone).
-    pub area: AreaModel,
+    /// How gathered photons are weighed and what their flux is divided by (map methods alone; final gather uses its kernel
+    /// and divides by the disc).
+    pub estimator: Estimator,
     /// Rays per gather point.
     pub gather_rays: u32,
     /// The run's seed.

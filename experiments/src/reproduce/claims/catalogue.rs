@@ -2,7 +2,7 @@
 
 use std::{path::Path, time::Duration};
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Interval, Point, Record, Row, Series, SeriesKind, Verdict,
 };
@@ -120,7 +120,7 @@ fn read<const C: usize>(
     let settings = Settings {
         method: way.method,
         direct: Direct::Sampled,
-        area: AreaModel::Disc,
+        estimator: Estimator::default(),
         gather_rays: 1,
         seed: p.seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
