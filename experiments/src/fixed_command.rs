@@ -21,7 +21,11 @@ pub(crate) fn fixed_command<const C: usize>(
         Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
             option("radius", radius.to_string());
         }
-        Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path | Method::Bins => {}
+        Method::Radius { radius: None }
+        | Method::FinalGather { radius: None }
+        | Method::Adaptive
+        | Method::Path
+        | Method::Bins => {}
     }
     if settings.direct == Direct::Photons {
         option("direct", "photons".into());
@@ -33,8 +37,14 @@ pub(crate) fn fixed_command<const C: usize>(
         Kernel::Biweight => option("kernel", "biweight".into()),
         Kernel::Gaussian => option("kernel", "gaussian".into()),
     }
-    if settings.estimator.area == AreaModel::Sphere {
-        option("area", "sphere".into());
+    if matches!(settings.method, Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive) {
+        let area = match settings.estimator.area {
+            AreaModel::Disc => "disc",
+            AreaModel::Sphere => "sphere",
+            AreaModel::Clipped => "clipped",
+            AreaModel::Linear => "linear",
+        };
+        option("area", area.into());
     }
     if settings.gather_rays > 1 {
         option("gather-rays", settings.gather_rays.to_string());

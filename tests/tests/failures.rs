@@ -129,7 +129,7 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         ("--cache", "not built yet"),
         ("--method path --kernel cone", "--kernel is not used by the method path"),
         ("--kernel triweight", "[possible values: disc, cone, epanechnikov, biweight, gaussian]"),
-        ("--area clipped", "not built yet"),
+        ("--method final-gather --area clipped", "--area is not used by the method final-gather"),
         ("--device gpu", "not built yet"),
     ] {
         fails(&program, &format!("measure {cube} {options}"), 2, &[word]);

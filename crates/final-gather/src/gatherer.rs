@@ -2,15 +2,12 @@
 
 use std::f64::consts::PI;
 
-use glam::DVec3;
-use photonlab_gather::{
-    AreaModel, Bandwidth, CHECK, Estimate, Estimator, GatherPoint, Kernel, PhotonMap, Scratch, Tests,
-};
-use photonlab_photometry::{Colour, Photon};
+use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimator, Kernel, PhotonMap, Scratch, Tests};
+use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, Light, Start, segment, segment::Emitted};
+use crate::{EyeLimits, Light, Place, Start, segment, segment::Emitted};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
@@ -185,38 +182,15 @@ impl<const C: usize> Gatherer<'_, C> {
         let bandwidth = Bandwidth::Radius(source.radius);
         // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
         let estimator = Estimator { kernel: source.kernel, area: AreaModel::Disc };
-        let estimate = estimate(source.map, self.world, at, sight, bandwidth, estimator, &tests, scratch);
+        let place = Place { world: self.world, optics: self.optics, at, sight };
+        let estimate = place.estimate(source.map, bandwidth, estimator, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
+            noise: 0.0,
             unresolved: Colour::ZERO,
             photons: estimate.photons as f64,
             reads: 1.0,
         }
-    }
-}
-
-/// The density estimate of what is seen at a surface point.
-#[expect(clippy::too_many_arguments, reason = "where, what and how: each is a thing of its own")]
-pub fn estimate<const C: usize>(
-    map: &PhotonMap<C>,
-    world: &World,
-    at: &SurfacePoint,
-    sight: &Sight<C>,
-    bandwidth: Bandwidth,
-    estimator: Estimator,
-    tests: &Tests,
-    scratch: &mut Scratch,
-) -> Estimate<C> {
-    let point =
-        GatherPoint { position: world.stored(at.position), normal: sight.normals.geometric.as_vec3().to_array() };
-    if sight.is_plain() {
-        map.gather(&point, bandwidth, estimator, tests, scratch)
-    } else {
-        let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
-        let weigh = |photon: &Photon<C>| {
-            sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
-        };
-        map.gather_weighed(&point, bandwidth, estimator, tests, weigh, scratch)
     }
 }

@@ -7,8 +7,10 @@
 
 mod gatherer;
 mod light;
+mod place;
 mod segment;
 
-pub use gatherer::{GatherMaps, Gatherer, MapWithRadius, estimate};
+pub use gatherer::{GatherMaps, Gatherer, MapWithRadius};
 pub use light::Light;
+pub use place::Place;
 pub use segment::{EyeLimits, Landing, Start, follow};

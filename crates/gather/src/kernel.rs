@@ -33,6 +33,28 @@ impl Kernel {
         }
     }
 
+    /// The integral of the weight over the squared share, from 0 to `t`: what a disc of `t` times the area weighs.
+    pub fn mass(self, t: f64) -> f64 {
+        match self {
+            Kernel::Disc => t,
+            Kernel::Cone => t * (3.0 - 2.0 * t.sqrt()),
+            Kernel::Epanechnikov => t * (2.0 - t),
+            Kernel::Biweight => t * (3.0 - t * (3.0 - t)),
+            Kernel::Gaussian => (1.0 - (-2.0 * t).exp()) / (2.0 * gaussian_mean()),
+        }
+    }
+
+    /// The integral of `t` times the weight from 0 to `t`.
+    pub fn second(self, t: f64) -> f64 {
+        match self {
+            Kernel::Disc => t * t / 2.0,
+            Kernel::Cone => t * t * (1.5 - 1.2 * t.sqrt()),
+            Kernel::Epanechnikov => t * t * (1.0 - t * 2.0 / 3.0),
+            Kernel::Biweight => t * t * (1.5 - t * (2.0 - t * 0.75)),
+            Kernel::Gaussian => (1.0 - (1.0 + 2.0 * t) * (-2.0 * t).exp()) / (4.0 * gaussian_mean()),
+        }
+    }
+
     /// The mean of `rho^2` under the kernel, `m2`: where the irradiance is smooth the bias is `m2 / 4 r^2` times its
     /// Laplacian, and exactly so where it is quadratic (catalogue A3; Silverman 1986, equation 4.9).
     pub fn second_moment(self) -> f64 {
@@ -81,6 +103,14 @@ mod tests {
             assert!((mean(|w, _| w) - 1.0).abs() < 1e-8, "{kernel:?}");
             assert!((mean(|w, rho| w * rho * rho) - kernel.second_moment()).abs() < 1e-8, "{kernel:?}");
             assert!((mean(|w, _| w * w) - kernel.variance_factor()).abs() < 1e-8, "{kernel:?}");
+            assert!((kernel.mass(1.0) - 1.0).abs() < 1e-15, "{kernel:?}");
+            assert!((kernel.second(1.0) - kernel.second_moment()).abs() < 1e-15, "{kernel:?}");
+            // Their slopes are the weight and its share.
+            for t in [0.1, 0.4, 0.8] {
+                let slope = |of: &dyn Fn(f64) -> f64| (of(t + 1e-5) - of(t - 1e-5)) / 2e-5;
+                assert!((slope(&|t| kernel.mass(t)) - kernel.weight(t)).abs() < 1e-8, "{kernel:?}");
+                assert!((slope(&|t| kernel.second(t)) - t * kernel.weight(t)).abs() < 1e-8, "{kernel:?}");
+            }
         }
     }
 }

@@ -5,11 +5,13 @@
 #![forbid(unsafe_code)]
 
 mod bandwidth;
+mod boundary;
 mod estimate;
 mod kernel;
 mod map;
 
 pub use bandwidth::{AreaModel, Bandwidth, Estimator, Tests};
+pub use boundary::{Inside, OpenPlane, Surroundings};
 pub use estimate::Estimate;
 pub use kernel::Kernel;
-pub use map::{CHECK, GatherPoint, PhotonMap, Scratch};
+pub use map::{CHECK, GatherPoint, PhotonMap, SAME_SURFACE, Scratch};

@@ -247,6 +247,15 @@ impl World {
         })
     }
 
+    /// True if any primitive that rays notice and that reaches into a closed ball passes the test.
+    pub(crate) fn any_in_ball(&self, position: DVec3, radius: f64, mut test: impl FnMut(u32) -> bool) -> bool {
+        self.accelerator.any_near(position, radius, |index| {
+            !self.inert[index as usize]
+                && self.primitives[index as usize].surface.distance(position) <= radius
+                && test(index)
+        })
+    }
+
     /// True if a face near a point belongs to the same mesh, lies nearly in the point's plane, and does not end within the
     /// ball.
     fn goes_on_as(&self, point: &SurfacePoint, index: u32, radius: f64) -> bool {
