@@ -3,7 +3,7 @@
 /// The weight of a photon at the share `rho` of the radius; beyond the radius none counts.
 ///
 /// Each is normalised in the plane: its mean over the disc of the radius is 1, so that in even light every kernel reads
-/// the same. Silverman, "Density Estimation for Statistics and Data Analysis", 1986, section 4.2, has the
+/// the same. Silverman, "Density Estimation for Statistics and Data Analysis", 1986, chapter 4, has the
 /// Epanechnikov and biweight kernels of two dimensions; Jensen, "Realistic Image Synthesis Using Photon Mapping", 2001,
 /// section 7.2, the cone and a Gaussian, which as printed there is not normalised (it reads 0.531 of the truth).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -56,7 +56,7 @@ impl Kernel {
     }
 
     /// The mean of `rho^2` under the kernel, `m2`: where the irradiance is smooth the bias is `m2 / 4 r^2` times its
-    /// Laplacian, and exactly so where it is quadratic (catalogue A3; Silverman 1986, equation 4.9).
+    /// Laplacian, and exactly so where it is quadratic (catalogue A3; Silverman 1986, chapter 4).
     pub fn second_moment(self) -> f64 {
         match self {
             Kernel::Disc => 1.0 / 2.0,

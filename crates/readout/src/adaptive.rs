@@ -8,8 +8,8 @@ const LARGEST_STEP: f64 = 3.0;
 /// One cell's radius and what it rests on.
 ///
 /// Where the irradiance is smooth the bias of a density estimate is `b r^2` and its variance `v / r^2`; the mean of `n` passes
-/// has the least mean squared error at `r^6 = v / (2 n b^2)` (Silverman 1986, section 4.3.1; Kaplanyan and Dachsbacher,
-/// "Adaptive progressive photon mapping", 2013, equation 12, who estimate `b` by derivatives of a kernel instead of by a
+/// has the least mean squared error at `r^6 = v / (2 n b^2)` (Silverman 1986, chapter 4; Kaplanyan and Dachsbacher,
+/// "Adaptive progressive photon mapping", 2013, who estimate `b` by derivatives of a kernel instead of by a
 /// second ball). A pass's radius depends on the photons of earlier passes alone, so that no pass is read with a radius
 /// that its own photons' noise has chosen: choosing the ball that looks best favours bright ones.
 ///

@@ -40,7 +40,7 @@ impl HalfPlaneMoments {
     }
 
     /// What a local linear fit reads there: the slope is taken out, what curves is not (Jones, "Simple boundary correction
-    /// for kernel density estimation", 1993, equation 3.4).
+    /// for kernel density estimation", 1993).
     pub fn linear(&self, bend: f64) -> f64 {
         let Self { area, first, across, third, .. } = self;
         1.0 + bend * (across * across - first * third) / (area * across - first * first)
