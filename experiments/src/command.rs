@@ -121,6 +121,9 @@ pub(crate) struct Reproduce {
     /// Claims by name; none means all.
     #[arg(value_name = "CLAIM")]
     pub(crate) claims: Vec<String>,
+    /// Entries of the catalogue to read, such as E1,E4 (claim catalogue alone) [default: all].
+    #[arg(long, value_name = "ID,...", value_delimiter = ',')]
+    pub(crate) entries: Vec<String>,
     /// How long it may take: three minutes, two hours, twelve hours.
     #[arg(long, value_enum, default_value = "quick")]
     pub(crate) budget: BudgetName,

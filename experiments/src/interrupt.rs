@@ -1,8 +1,31 @@
 //! Ctrl-C: ends with status 130, but never in the middle of a file.
 
-use std::sync::{Mutex, MutexGuard};
+use std::{
+    path::{Path, PathBuf},
+    sync::{Mutex, MutexGuard},
+};
 
 static WRITING: Mutex<()> = Mutex::new(());
+
+/// Folders made for a run, the innermost last.
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// Makes a folder, and what leads to it; an interrupt takes away again what is empty then.
+pub(crate) fn make_folder(path: &Path) -> std::io::Result<()> {
+    let missing: Vec<&Path> =
+        path.ancestors().take_while(|part| !part.as_os_str().is_empty() && !part.exists()).collect();
+    let mut made = MADE.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    made.extend(missing.into_iter().rev().map(Path::to_owned));
+    std::fs::create_dir_all(path)
+}
+
+/// Takes away the folders made that nothing is in.
+fn take_empty_folders_away() {
+    for folder in MADE.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).iter().rev() {
+        // One that is not empty stays.
+        let _ = std::fs::remove_dir(folder);
+    }
+}
 
 /// Held while a file takes its final name; an interrupt waits for it.
 pub(crate) fn writing() -> MutexGuard<'static, ()> {
@@ -14,6 +37,7 @@ pub(crate) fn install() {
     // A second handler cannot be installed when `run` is called twice in one process; the first still serves.
     let _ = ctrlc::set_handler(|| {
         let _no_file_is_half_written = writing();
+        take_empty_folders_away();
         std::process::exit(130);
     });
 }

@@ -111,6 +111,10 @@ fn describe<const C: usize>(file: &MapFile<C>) -> String {
     let _ = writeln!(text, "passes          {}", file.passes.len());
     let _ = writeln!(text, "emitted paths   {emitted}");
     let _ = writeln!(text, "stored photons  {stored}");
+    let in_media: usize = file.passes.iter().map(|pass| pass.volume.photons.len()).sum();
+    if in_media > 0 {
+        let _ = writeln!(text, "in media        {in_media}");
+    }
     let mean = |of: &dyn Fn(&photonlab_trace::Ledger<C>) -> f64| {
         file.passes.iter().map(|pass| of(&pass.ledger)).sum::<f64>() / file.passes.len().max(1) as f64
     };

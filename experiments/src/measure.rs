@@ -186,12 +186,10 @@ fn readings<const C: usize>(
 /// Why no reading of this method can be certified in this scene, if so.
 pub(crate) fn doubt(loaded: &Loaded, settings: &Settings) -> Option<String> {
     let scene = &loaded.world.scene;
-    let by_paths = settings.method == Method::Path || scene.media.iter().any(|medium| medium.scatters());
     let has_delta_lamp = scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }));
-    if settings.method != Method::Bins && by_paths && loaded.needs.caustic && has_delta_lamp {
+    if settings.method == Method::Path && loaded.needs.caustic && has_delta_lamp {
         return Some(
-            "rays that look for light, on surfaces or in media, cannot find a point or directional lamp by way of specular \
-             surfaces; --method bins counts its photons"
+            "paths from the eye cannot find a point or directional lamp by way of specular surfaces; every other method can"
                 .into(),
         );
     }

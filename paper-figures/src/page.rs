@@ -1,6 +1,6 @@
 //! What the page shows of each record, ready to be written.
 
-use photonlab_measure::{Comparison, FigureData, ImageEntry, Record, Verdict};
+use photonlab_measure::{Comparison, FigureData, Group, ImageEntry, Record, Verdict};
 use serde::Serialize;
 
 use crate::data_uri::data_uri;
@@ -65,7 +65,7 @@ struct Claim<'a> {
     seconds: String,
     verdict: Badge,
     agreement: String,
-    comparisons: Vec<Line<'a>>,
+    tables: Vec<Table<'a>>,
     figures: Vec<Drawing>,
     images: Vec<Picture<'a>>,
 }
@@ -83,12 +83,50 @@ impl<'a> Claim<'a> {
             seconds: plain_text((record.run.seconds * 10.0).round() / 10.0),
             verdict: Badge::of(record.verdict),
             agreement: agreement(&record.comparisons),
-            comparisons: record.comparisons.iter().map(Line::new).collect(),
+            tables: Table::of(record),
             figures: figures.map_err(|source| ReportError::Figure { claim: record.claim.clone(), source })?,
             images: record.images.iter().map(|i| Picture::new(i, entry)).collect::<Result<_, _>>()?,
             anchor,
             record,
         })
+    }
+}
+
+/// Comparisons under a heading of their own, to be folded, or all of a record's without one.
+#[derive(Serialize)]
+struct Table<'a> {
+    heading: Option<&'a Group>,
+    agreement: String,
+    class: &'static str,
+    lines: Vec<Line<'a>>,
+}
+
+impl<'a> Table<'a> {
+    fn of(record: &'a Record) -> Vec<Self> {
+        let mut rest = record.comparisons.as_slice();
+        let mut tables: Vec<_> = record
+            .groups
+            .iter()
+            .map(|group| {
+                let (own, others) = rest.split_at(group.comparisons.min(rest.len()));
+                rest = others;
+                Table::new(Some(group), own)
+            })
+            .collect();
+        if !rest.is_empty() {
+            tables.push(Table::new(None, rest));
+        }
+        tables
+    }
+
+    fn new(heading: Option<&'a Group>, comparisons: &'a [Comparison]) -> Self {
+        let fails = comparisons.iter().any(|c| c.holds == Some(false));
+        Table {
+            heading,
+            agreement: agreement(comparisons),
+            class: if fails { "fails" } else { "holds" },
+            lines: comparisons.iter().map(Line::new).collect(),
+        }
     }
 }
 

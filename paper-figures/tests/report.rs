@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use photonlab_measure::{
-    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record, Run, Series, SeriesKind,
-    Verdict,
+    Axis, Budget, Comparison, Expected, FigureData, Group, ImageEntry, Interval, Point, Record, Run, Series,
+    SeriesKind, Verdict,
 };
 use photonlab_paper_figures::{ReportEntry, ReportError, report};
 
@@ -39,6 +39,7 @@ fn record(claim: &str, verdict: Verdict) -> Record {
                 .with_note("far"),
             Comparison::judge("another", "lx", Expected::exact(1.0, "D4"), None),
         ],
+        groups: vec![],
         rows: vec![],
         figures: vec![figure("ratio"), figure("noise")],
         images: vec![ImageEntry { title: "Plane".into(), path: "plane.png".into(), caption: "Even.".into() }],
@@ -123,6 +124,21 @@ fn numbers_are_rounded_and_text_is_escaped() {
         assert!(page.contains(text), "{text}");
     }
     assert!(page.contains("&lt;sphere-area&gt;") && page.contains("4 pi r^2) &amp; nothing"));
+}
+
+/// Every comparison stands in its group, whose heading says what failed; a group without any is a line.
+#[test]
+fn groups_fold_their_comparisons() {
+    let mut grouped = record("catalogue", Verdict::DoesNotHold);
+    grouped.comparisons[1].holds = Some(false);
+    let group = |title: &str, comparisons| Group { title: title.into(), summary: format!("on {title}"), comparisons };
+    grouped.groups = vec![group("C1", 1), group("D1", 2), group("G5", 0)];
+    let page = page(&[grouped]);
+    assert_eq!(page.matches("<details").count(), 2);
+    let parts: Vec<&str> = page.split("<details").collect();
+    assert!(parts[1].contains("1 of 1 agree") && parts[1].contains("ratio to truth") && !parts[1].contains("another"));
+    assert!(parts[2].contains("fails\">0 of 1 agree") && parts[2].contains("illuminance"));
+    assert!(parts[2].contains("another") && parts[2].split("</details>").nth(1).unwrap().contains("on G5"));
 }
 
 #[test]

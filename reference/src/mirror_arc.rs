@@ -48,17 +48,10 @@ pub fn box_flux([x0, x1]: [f64; 2], [y0, y1]: [f64; 2], reach: f64) -> f64 {
 /// The mirror of radius 1 and height 1 with the sun at 45 degrees, `E_h = 1`, and a meter that reads the flux on one box of
 /// the floor, direct sun included.
 ///
-/// The mirror is a whole cylinder; black plates far outside keep the sun from all but 45 degrees to either side, and the
+/// The mirror is a whole cylinder; black plates at its near side keep the sun from all but 45 degrees to either side, and the
 /// sun passes over the near wall, whose shadow ends before `x = 0.05` for `|y| < 0.3`.
 fn case(x: [f64; 2], y: [f64; 2]) -> Case {
-    let ends = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
-    let mut draft = Draft::with(mitsuba::parallel_light([1.0, 0.0, -1.0], &[SQRT_2]));
-    draft.add(&mitsuba::inside_cylinder("mirror", ends, 1.0, mitsuba::PERFECT_MIRROR));
-    let edge = FRAC_PI_4.sin();
-    for side in [-1.0, 1.0] {
-        let centre = [-3.0, side * (edge + 0.5), 3.5];
-        draft.wall(Place { centre, normal: [-1.0, 0.0, 0.0], up: [0.0, 0.0, 1.0], half: [0.5, 2.5] });
-    }
+    let mut draft = cup();
     let half = [0.5 * (x[1] - x[0]), 0.5 * (y[1] - y[0])];
     let place = Place::floor([0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1]), 0.0], half);
     let flux = box_flux(x, y, 1.0) + 4.0 * half[0] * half[1];
@@ -66,8 +59,30 @@ fn case(x: [f64; 2], y: [f64; 2]) -> Case {
     draft.case(format!("box {} {} {} {}", x[0], x[1], y[0], y[1]))
 }
 
-/// The boxes of the catalogue's E4.
-const BOXES: [[[f64; 2]; 2]; 6] = [
+/// The same with one black floor, `x` in `[0, 0.8]` and `y` in `[-0.4, 0.4]`, whose meter (`floor`) reads the flux, direct sun
+/// included, on `cells` by `cells` equal cells: columns along x, rows along y.
+pub fn floor_xml(cells: usize) -> String {
+    let mut draft = cup();
+    let on_it = mitsuba::diffuse(&[0.0]) + &mitsuba::film_meter(Reads::Flux, "floor", cells);
+    draft.add(&mitsuba::flat("rectangle", "cells", Place::floor([0.4, 0.0, 0.0], [0.4; 2]), &on_it));
+    draft.case("floor").xml
+}
+
+/// Sun, mirror and plates.
+fn cup() -> Draft {
+    let ends = [[0.0, 0.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut draft = Draft::with(mitsuba::parallel_light([1.0, 0.0, -1.0], &[SQRT_2]));
+    draft.add(&mitsuba::inside_cylinder("mirror", ends, 1.0, mitsuba::PERFECT_MIRROR));
+    let edge = FRAC_PI_4.sin();
+    for side in [-1.0, 1.0] {
+        let centre = [-1.001, side * (edge + 0.15), 1.75];
+        draft.wall(Place { centre, normal: [-1.0, 0.0, 0.0], up: [0.0, 0.0, 1.0], half: [0.15, 1.25] });
+    }
+    draft
+}
+
+/// The boxes of the catalogue's E4, as ends in x and in y.
+pub const BOXES: [[[f64; 2]; 2]; 6] = [
     [[0.3, 0.4], [-0.05, 0.05]],
     [[0.45, 0.55], [-0.05, 0.05]],
     [[0.5, 0.6], [0.0, 0.1]],

@@ -66,10 +66,10 @@ impl Pane {
     /// vertical (degrees): a glass plate if `plate`, else an infinitely thin pane.
     pub fn parallel_case(&self, degrees: f64, plate: bool) -> Case {
         let (sine, cosine) = degrees.to_radians().sin_cos();
-        let mut draft = self.start(plate);
+        let mut draft = self.start(plate, HALF_IN_BEAM);
         draft.add(&mitsuba::parallel_light([sine, 0.0, -cosine], &[1.0]));
         let value = cosine * self.transmittance(cosine, Polarisation::Reset);
-        let uncertainty = 1e-12 + self.lateral_loss(cosine);
+        let uncertainty = 1e-12 + self.lateral_loss(cosine, HALF_IN_BEAM);
         draft.square(Place::floor([0.0; 3], [0.5; 2]), uncertainty, |_| value);
         draft.case(format!("{degrees} degrees, {}", name(plate)))
     }
@@ -77,7 +77,7 @@ impl Pane {
     /// The pane as the lid of a closed black tray under an environment of radiance 1, and a meter in the tray. Without its
     /// floor the tray would let light in from below, which the pane reflects onto the meter.
     pub fn diffuse_case(&self, plate: bool) -> Case {
-        let mut draft = self.start(plate);
+        let mut draft = self.start(plate, HALF);
         draft.add(&mitsuba::constant_light(&[1.0]));
         for wall in &Place::inside_box([-HALF, -HALF, -GAP], [HALF, HALF, GAP])[..5] {
             draft.wall(*wall);
@@ -85,37 +85,39 @@ impl Pane {
         let value = PI * self.diffuse_transmittance(Polarisation::Reset);
         // Directions that miss the lid: cos^2 < (gap / distance to the wall)^2.
         let missed = PI * (GAP / (HALF - 0.5)).powi(2);
-        draft.square(Place::floor([0.0; 3], [0.5; 2]), missed + self.lateral_loss(0.0), |_| value);
+        draft.square(Place::floor([0.0; 3], [0.5; 2]), missed + self.lateral_loss(0.0, HALF), |_| value);
         draft.case(format!("diffuse, {}", name(plate)))
     }
 
-    fn start(&self, plate: bool) -> Draft {
+    fn start(&self, plate: bool, half: f64) -> Draft {
         if plate {
-            let size = [HALF, HALF, 0.5 * THICKNESS];
+            let size = [half, half, 0.5 * THICKNESS];
             let centre = [0.0, 0.0, GAP + 0.5 * THICKNESS];
             Draft::with(mitsuba::block("pane", centre, size, &mitsuba::dielectric(self.index)))
         } else {
-            let place = Place::floor([0.0, 0.0, GAP], [HALF; 2]);
+            let place = Place::floor([0.0, 0.0, GAP], [half; 2]);
             Draft::with(mitsuba::flat("rectangle", "pane", place, &mitsuba::thin_dielectric(self.index)))
         }
     }
 
     /// What light that wanders inside the plate up to its rim before it comes down could add to the reading, relative to
     /// light that falls on the pane: `R^k` after the `k` crossings that lead there, averaged over incidence.
-    fn lateral_loss(&self, cosine: f64) -> f64 {
+    fn lateral_loss(&self, cosine: f64, half: f64) -> f64 {
         let inside = (1.0 - (1.0 - cosine * cosine) / (self.index * self.index)).sqrt();
         let per_crossing = THICKNESS * (1.0 - inside * inside).sqrt() / inside;
-        let crossings = (HALF - 0.5) / per_crossing;
+        let crossings = (half - 0.5) / per_crossing;
         // Near grazing incidence 1 - R falls to zero in proportion to the cosine, and so does the light let in.
         let kept = |mu: f64| 2.0 * mu * fresnel::unpolarised(mu, self.index).powf(crossings - 1.0);
         if cosine > 0.0 { kept(cosine) } else { Gauss::new(40).composite(0.0, 1.0, 50, kept) }
     }
 }
 
-/// Half-edge of the pane, its height above the meter, and the plate's thickness, in metres.
+/// Half-edge of the pane under an environment and in parallel light, which a wider one would waste, its height above the
+/// meter, and the plate's thickness, in metres.
 const HALF: f64 = 5.0;
+const HALF_IN_BEAM: f64 = 1.0;
 const GAP: f64 = 0.005;
-const THICKNESS: f64 = 0.02;
+const THICKNESS: f64 = 0.005;
 
 fn name(plate: bool) -> &'static str {
     if plate { "glass plate" } else { "thin pane" }

@@ -45,11 +45,11 @@ impl Paraboloid {
         Draft::with(mitsuba::point_lamp([0.0; 3], &[self.flux / (4.0 * PI)]) + &mirror)
     }
 
-    /// Square meters at these distances (m) from the axis on a screen `height` (m) above the focus: beam and direct light.
+    /// Meters of 0.2 by 0.5 m at these distances (m) from the axis on a screen `height` (m) above the focus: beam and direct light.
     pub fn irradiance_case(&self, rim: f64, height: f64, distances: &[f64]) -> Result<Case, OutOfRange> {
         let (mut draft, lamp) = (self.start(rim), PointLamp::new(self.flux, height, None)?);
         for &x in distances {
-            let place = Place::floor([x, 0.0, height], [0.03; 2]).turned();
+            let place = Place::floor([x, 0.0, height], [0.1, 0.25]).turned();
             draft.square(place, 1e-9 * self.irradiance(0.0), |p| {
                 let r = p[0].hypot(p[1]);
                 self.irradiance(r) + lamp.irradiance(r)

@@ -28,11 +28,14 @@ pub struct Prism {
     incidence: f64,
 }
 
-/// Apex angle, edge and half width of the slit, distance of the screen: radians and metres.
+/// Apex angle, edge and half width of the slit, distance of the screen, half-edge of what shades all but the slit, and its
+/// distance before the prism: radians and metres. Little larger than they must be, since photons are sent all over them.
 const APEX: f64 = std::f64::consts::FRAC_PI_3;
 const EDGE: f64 = 0.2;
-const SLIT: f64 = 0.01;
-const SCREEN: f64 = 1.0;
+const SLIT: f64 = 0.03;
+const SCREEN: f64 = 0.3;
+const SHADE: f64 = 0.35;
+const BEFORE: f64 = 0.15;
 
 impl Prism {
     /// A 60-degree prism of this refractive index, lit at `incidence` (radians) so that the beam comes out at the other
@@ -72,8 +75,8 @@ impl Prism {
         0.5 * EDGE * inside.cos() / (APEX - inside).cos()
     }
 
-    /// Two flux meters that meet on the middle of the beam, one metre behind the prism, perpendicular to it. Each reads half
-    /// of what passes the slit of 4 SLIT^2 and the prism; an index off by 1e-5 moves 1e-3 of it from one to the other.
+    /// Two flux meters that meet on the middle of the beam, 0.3 m behind the prism, perpendicular to it. Each reads half
+    /// of what passes the slit of 4 SLIT^2 and the prism; an index off by 1e-4 moves 1e-3 of it from one to the other.
     ///
     /// Apex up (+z); the base is black, so that no light returns from inside.
     fn case(&self, name: String) -> Case {
@@ -81,7 +84,7 @@ impl Prism {
         let direction = |angle: f64| [angle.cos(), 0.0, angle.sin()];
         let beam = direction(tilt);
         let mut draft = Draft::with(mitsuba::parallel_light(beam, &[1.0]));
-        let half_face = [SLIT * 4.0, 0.5 * EDGE];
+        let half_face = [SLIT * 2.0, 0.5 * EDGE];
         let glass = mitsuba::dielectric(self.index);
         // Up along both faces, from the base's ends to the apex in the origin.
         let ups = [-1.0, 1.0].map(|side| [-side * (0.5 * APEX).sin(), 0.0, (0.5 * APEX).cos()]);
@@ -92,7 +95,7 @@ impl Prism {
         }
         draft.wall(Place::floor([0.0, 0.0, -EDGE * (0.5 * APEX).cos()], [0.5 * EDGE, half_face[0]]));
         let entrance = along([0.0; 3], -0.5 * EDGE, ups[0]);
-        slit(&mut draft, along(entrance, -0.5, beam), beam);
+        slit(&mut draft, along(entrance, -BEFORE, beam), beam);
 
         let (leaves, out) = (along([0.0; 3], -self.exit_from_apex(), ups[1]), direction(tilt - self.deviation()));
         let (centre, across) = (along(leaves, SCREEN, out), [-out[2], 0.0, out[0]]);
@@ -107,12 +110,12 @@ impl Prism {
     }
 }
 
-/// A black screen of half-edge 1 m across the light with a square opening of half-edge `SLIT`.
+/// A black screen of half-edge `SHADE` across the light with a square opening of half-edge `SLIT`.
 fn slit(draft: &mut Draft, centre: Vector, beam: Vector) {
     let (normal, up) = (beam.map(|x| -x), [-beam[2], 0.0, beam[0]]);
-    let (long, side) = (0.5 * (1.0 - SLIT), 0.5 * (1.0 + SLIT));
+    let (long, side) = (0.5 * (SHADE - SLIT), 0.5 * (SHADE + SLIT));
     for sign in [-1.0, 1.0] {
-        draft.wall(Place { centre: along(centre, sign * side, up), normal, up, half: [1.0, long] });
+        draft.wall(Place { centre: along(centre, sign * side, up), normal, up, half: [SHADE, long] });
         let centre = along(centre, sign * side, [0.0, 1.0, 0.0]);
         draft.wall(Place { centre, normal, up, half: [long, SLIT] });
     }

@@ -1,4 +1,4 @@
-//! Three readings of the paper's equation 1, on a diffuse transmitter.
+//! Three readings of the paper's equation 1, on a diffuse transmitter, and what it leaves of a radiance in a medium.
 //!
 //! Eq. 1 of Zhdanov and Krimmel multiplies the integral of `BSDF L (n . v')` over all `4 pi` directions by `1 / pi`.
 //! A thin diffuser that reflects `rho` and transmits `tau`, lit by irradiance `E_front` and `E_back`, has on its front
@@ -7,10 +7,19 @@
 //! - with a BSDF in 1/sr (`rho / pi`, `tau / pi`) the extra `1 / pi` makes eq. 1 read `pi` times too low;
 //! - with luminance factors (relative to a perfect diffuser: `rho`, `tau`) and `|n . v'|` it is right;
 //! - with `n . v'` taken with its sign, light from behind counts as negative: `(rho E_front - tau E_back) / pi`.
+//!
+//! Between point and observer eq. 1 has the medium's transmittance and no term for light that the medium scatters into the
+//! line: of a slab it shows [`transmittance`] times what is behind, whatever its albedo.
 
 use std::f64::consts::PI;
 
 use crate::out_of_range::{OutOfRange, require};
+
+/// The share of a radiance that a slab of this optical thickness leaves on a line at this cosine from its normal, in
+/// `(0, 1]`, by eq. 1: `exp(-thickness / cosine)` (Bouguer's law).
+pub fn transmittance(thickness: f64, cosine: f64) -> f64 {
+    (-thickness / cosine).exp()
+}
 
 /// How the symbols of eq. 1 are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

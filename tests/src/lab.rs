@@ -6,7 +6,7 @@ use std::{
 };
 
 use photonlab_gather::Estimator;
-use photonlab_photometry::{Palette, Response};
+use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
@@ -62,6 +62,16 @@ impl Lab {
         let path = folder.path().join("scene.xml");
         std::fs::write(&path, format!("<scene version=\"3.0.0\">{elements}</scene>")).expect("written");
         Self::open(&path)
+    }
+
+    /// The channels that the scene needs.
+    pub fn channels(&self) -> Channels {
+        self.needs.channels
+    }
+
+    /// The number of its lamps: a pass has at least as many photons.
+    pub fn lamps(&self) -> usize {
+        Optics::<1>::new(&self.world, Palette::Channels).lamps.lamps.len()
     }
 
     /// Follows the photons of one pass.

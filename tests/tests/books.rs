@@ -1,11 +1,18 @@
 //! Where the flux went: surfaces against their reflectance, roulette against zero, and everything against the emission.
 
-use photonlab_measure::Replicates;
-use photonlab_photometry::Colour;
-use photonlab_reference::{ball_lens::BallLens, cube::Cube, furnace::Furnace, integrating_sphere::IntegratingSphere};
+use photonlab_measure::{Replicates, welch_test};
+use photonlab_photometry::{Channels, Colour};
+use photonlab_reference::{
+    ball_lens::BallLens,
+    catalogue,
+    cube::Cube,
+    furnace::Furnace,
+    integrating_sphere::IntegratingSphere,
+    pane::{Pane, Polarisation},
+};
 use photonlab_scene::Bsdf;
-use photonlab_tests::{Family, Lab, scene_text, seed};
-use photonlab_trace::{Classes, Ledger, Limits};
+use photonlab_tests::{Family, Lab, scene_file, scene_text, seed};
+use photonlab_trace::{Classes, Ledger, Limits, SurfaceBook};
 
 /// Independent passes of one scene.
 const PASSES: u32 = 64;
@@ -140,4 +147,172 @@ fn a_path_limit_is_obeyed_to_the_segment() {
         let longest = traced.photons.iter().map(|photon| u32::from(photon.segments)).max();
         assert_eq!(longest, Some(max));
     }
+}
+
+/// Photons of each of [`PASSES`] passes of every scene.
+const FEW: u64 = 32;
+
+/// What is one flux counted in two ways, in one scene: to rounding where no chance is between them, else by Student's t of
+/// each surface and channel, the least likely of which is compared (Sidak).
+fn judge_books<const C: usize>(family: &mut Family, name: &str, lab: &Lab, seed: u64) {
+    let scene = &lab.world.scene;
+    let limits = Limits { max_segments: scene.max_depth, ..Limits::default() };
+    let trace = |pass| lab.trace_within::<C>(FEW.max(lab.lamps() as u64), seed, pass, Classes::NONE, limits).ledger;
+    let ledgers: Vec<Ledger<C>> = (0..PASSES).map(trace).collect();
+    let mut p_values = Vec::new();
+    let mut compare = |what: String, differences: Vec<f64>| {
+        // What is zero but for rounding needs no statistics.
+        let p = if differences.iter().all(|d| d.abs() < 1e-9) {
+            1.0
+        } else {
+            let differences: Replicates = differences.into_iter().collect();
+            let zero: Replicates = [0.0, 0.0].into_iter().collect();
+            welch_test(&differences, &zero).map_or(f64::NAN, |test| test.p_value)
+        };
+        p_values.push((p, what));
+    };
+    for channel in 0..C {
+        // A channel in which a pass emits nothing has no books.
+        let lit: Vec<&Ledger<C>> = ledgers.iter().filter(|ledger| ledger.emitted[channel] > 0.0).collect();
+        for ledger in &lit {
+            let (emitted, total) = (ledger.emitted[channel], ledger.total());
+            let same = |what: &str, a: f64, b: f64| {
+                assert!((a - b).abs() <= 1e-9 * emitted.max(a.abs()), "{name}, channel {channel}: {what}: {a}, {b}");
+            };
+            same("fates", total.accounted()[channel], emitted);
+            if scene.media.is_empty() {
+                let sum =
+                    |of: fn(&SurfaceBook<C>) -> Colour<C>| ledger.surfaces.iter().map(|b| of(b)[channel]).sum::<f64>();
+                same("absorbed at surfaces", sum(|book| book.absorbed), total.absorbed[channel]);
+                // Every segment starts at a lamp or a surface and ends at one, outside, or at the path's limit.
+                let (starts, ends) = (emitted + sum(|b| b.outgoing), sum(|b| b.incident) + total.escaped[channel]);
+                same("segments", starts, ends + total.cut_off[channel]);
+            }
+        }
+        let of = |difference: &dyn Fn(&Ledger<C>) -> f64| -> Vec<f64> {
+            lit.iter().map(|ledger| difference(ledger) / ledger.emitted[channel]).collect()
+        };
+        compare(format!("roulette, channel {channel}"), of(&|ledger| ledger.total().roulette()[channel]));
+        for (index, shape) in scene.shapes.iter().enumerate() {
+            let left = |ledger: &Ledger<C>| {
+                let book = &ledger.surfaces[index];
+                book.incident[channel] - book.outgoing[channel] - book.absorbed[channel]
+            };
+            compare(format!("{}, channel {channel}", shape.id), of(&left));
+        }
+    }
+    let count = p_values.len() as f64;
+    let (p, what) = p_values.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("roulette at least");
+    family.compare(name, -(count * (-p).ln_1p()).exp_m1(), format!("{what}: p = {p:.1e} of {count}"));
+}
+
+fn judge_scene(family: &mut Family, name: &str, lab: &Lab, seed: u64) {
+    match lab.channels() {
+        Channels::Grey => judge_books::<1>(family, name, lab, seed),
+        Channels::Rgb => judge_books::<3>(family, name, lab, seed),
+        Channels::Spectral => unreachable!("no scene here has spectra"),
+    }
+}
+
+/// Flux that arrives, leaves, is absorbed and escapes, each counted apart, in every scene of the project and the catalogue.
+#[test]
+fn the_books_of_every_scene_agree() {
+    let mut family = Family::new("books of every scene");
+    let mut number = 500_000;
+    let mut judge = |name: &str, lab: &Lab| {
+        judge_scene(&mut family, name, lab, seed(number));
+        number += 1;
+    };
+    for file in ["ball-lens-lamp", "ball-lens", "cornell-box", "cube", "integrating-sphere", "square-lamp"] {
+        judge(file, &Lab::open(&scene_file(&format!("{file}.xml"))));
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for entry in catalogue::ALL {
+        for case in (entry.cases)() {
+            let path = folder.path().join("scene.xml");
+            std::fs::write(&path, &case.xml).expect("written");
+            for (name, text) in &case.files {
+                std::fs::write(folder.path().join(name), text).expect("written");
+            }
+            judge(&format!("{} {}", entry.id, case.name), &Lab::open(&path));
+        }
+    }
+    family.decide();
+}
+
+/// Where methods fail: walls that absorb a thousandth, spheres in spheres, rooms a millimetre and a kilometre wide.
+#[test]
+fn the_books_of_hard_scenes_agree() {
+    let mut family = Family::new("books of hard scenes");
+    let sphere = |radius: f64, reflectance: f64| {
+        let lamp = [0.2 * radius, 0.0, -0.5 * radius];
+        IntegratingSphere::new(radius, lamp, Colour([1.0]), Colour([reflectance])).expect("in range").xml()
+    };
+    let ball = |radius: f64, coating: &str| {
+        format!("<shape type=\"sphere\"><float name=\"radius\" value=\"{radius}\"/>{coating}</shape>")
+    };
+    let glass = |inside: f64, outside: f64| {
+        format!(
+            "<bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"{inside}\"/>\
+             <float name=\"ext_ior\" value=\"{outside}\"/></bsdf>"
+        )
+    };
+    let matte = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0.8\"/></bsdf>";
+    let inwards = format!("<boolean name=\"flip_normals\" value=\"true\"/>{matte}");
+    let nested = format!(
+        "<scene version=\"3.0.0\"><emitter type=\"point\"><point name=\"position\" x=\"0.8\" y=\"0\" z=\"0.1\"/></emitter>\
+         {}{}{}{}</scene>",
+        ball(1.0, &inwards),
+        ball(0.6, &glass(1.5, 1.0)),
+        ball(0.4, &glass(1.33, 1.5)),
+        ball(0.2, matte)
+    );
+    let scenes = [
+        ("walls of 0.999", sphere(1.0, 0.999)),
+        ("a millimetre wide", sphere(1e-3, 0.8)),
+        ("a kilometre wide", sphere(1e3, 0.8)),
+        ("spheres in spheres", nested),
+    ];
+    for (number, (name, xml)) in scenes.iter().enumerate() {
+        let lab = Lab::new(xml);
+        judge_scene(&mut family, name, &lab, seed(440 + number as u32));
+        // What arrives on the wall of an integrating sphere in all is the flux over 1 - rho.
+        let rho: f64 = [0.999, 0.8, 0.8, 0.0][number];
+        if rho > 0.0 {
+            let ledgers = ledgers::<1>(&lab, 250, seed(450 + number as u32));
+            let incident: Replicates = ledgers.iter().map(|l| l.surfaces[0].incident[0] / l.emitted[0]).collect();
+            family.mean(format!("{name}: incident"), &incident, 1.0 / (1.0 - rho));
+        }
+    }
+    family.decide();
+}
+
+/// A square light guide 100 widths long passes what a pane passes: total reflection at its sides keeps the angle to its ends.
+#[test]
+fn a_light_guide_of_a_hundred_widths_passes_what_a_pane_does() {
+    let mut family = Family::new("books of a light guide");
+    let end = |z: f64, turn: &str, on_it: &str| {
+        format!(
+            "<shape type=\"rectangle\"><transform name=\"to_world\"><scale value=\"0.5\"/>{turn}\
+             <translate z=\"{z}\"/></transform>{on_it}</shape>"
+        )
+    };
+    let lamp = "<emitter type=\"area\"><rgb name=\"radiance\" value=\"1\"/></emitter>";
+    let black = "<bsdf type=\"diffuse\"><rgb name=\"reflectance\" value=\"0\"/></bsdf>";
+    let guide = "<shape type=\"cube\"><transform name=\"to_world\"><scale x=\"0.5\" y=\"0.5\" z=\"50\"/></transform>\
+                 <bsdf type=\"dielectric\"><float name=\"int_ior\" value=\"1.5\"/><float name=\"ext_ior\" value=\"1\"/></bsdf></shape>";
+    let (below, above) = (end(-50.000001, "", lamp), end(50.000001, "<rotate x=\"1\" angle=\"180\"/>", black));
+    let lab = Lab::new(&format!("<scene version=\"3.0.0\">{below}{above}{guide}</scene>"));
+    let limits = Limits { max_specular: 1_000_000, ..Limits::default() };
+    let passed = (0..PASSES).map(|pass| {
+        let ledger = lab.trace_within::<1>(1000, seed(460), pass, Classes::NONE, limits).ledger;
+        assert_eq!(ledger.total().cut_off[0], 0.0, "nothing is trapped for good");
+        let (total, emitted) = (ledger.total(), ledger.emitted[0]);
+        // Between the lamp and the guide's end one photon in 250 000 slips out: three of one pass once in 10^6 runs.
+        assert!(total.escaped[0] < 2.5e-3 * emitted, "escaped {}", total.escaped[0] / emitted);
+        ledger.surfaces[1].incident[0] / emitted
+    });
+    let passed: Replicates = passed.collect();
+    family.mean("passed", &passed, Pane::new(1.5).expect("an index").diffuse_transmittance(Polarisation::Reset));
+    family.decide();
 }

@@ -17,8 +17,8 @@ const DENSITY: f64 = 256.0;
 const PLACES: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
 
 /// Gathers beside the straight edge x = 0 of a field whose irradiance has a slope and a bend away from it, per radius.
-fn beside_edge(field: Field, slope: f64, area: AreaModel, bandwidth: Bandwidth) -> [Estimate<1>; 4] {
-    let field = field.shaded(|at| 1.0 + slope * at.x / RADIUS);
+fn beside_edge(field: Field, [slope, bend]: [f64; 2], area: AreaModel, bandwidth: Bandwidth) -> [Estimate<1>; 4] {
+    let field = field.shaded(|at| 1.0 + slope * at.x / RADIUS + bend * (at.x / RADIUS).powi(2));
     let at = PLACES.map(|t| (DVec3::new(t * RADIUS, 0.0, 0.0), DVec3::Z));
     let estimator = Estimator { kernel: Kernel::Disc, area };
     field.gather_among(at, bandwidth, estimator, &Tests::default(), |query, radius| {
@@ -32,21 +32,29 @@ fn lit(stream: &mut photonlab_sampling::Stream) -> Field {
     Field::default().floor(DENSITY, [0.0, -2.5 * RADIUS], [4.0 * RADIUS, 2.5 * RADIUS], stream)
 }
 
-/// The clipped area reads even light, and of a slope what the law says; a linear fit reads the slope too.
+/// The clipped area reads even light, and of uneven light what the law says; a linear fit reads the
+/// slope too.
 #[test]
 fn at_a_straight_edge_the_clipped_area_reads_even_light_and_a_linear_fit_a_slope() {
     let mut family = Family::new("clipped at an edge");
-    for (slope, area, seed_of) in
-        [(0.0, AreaModel::Clipped, 1600), (0.6, AreaModel::Clipped, 1601), (0.6, AreaModel::Linear, 1602)]
-    {
-        let rows =
-            replicates(6000, seed(seed_of), |stream| beside_edge(lit(stream), slope, area, Bandwidth::Radius(RADIUS)));
+    for (slope, bend, area, seed_of) in [
+        (0.0, 0.0, AreaModel::Clipped, 1600),
+        (0.6, 0.3, AreaModel::Clipped, 1601),
+        (0.6, 0.0, AreaModel::Linear, 1602),
+        (0.6, 0.3, AreaModel::Linear, 1603),
+    ] {
+        let rows = replicates(6000, seed(seed_of), |stream| {
+            beside_edge(lit(stream), [slope, bend], area, Bandwidth::Radius(RADIUS))
+        });
         for (i, t) in PLACES.into_iter().enumerate() {
-            // The slope seen from the query, over the irradiance there.
-            let here = 1.0 + slope * t;
+            // The irradiance and its slope at the query, and the law of light that is 1 there.
+            let (here, slope_here) = (1.0 + slope * t + bend * t * t, slope + 2.0 * bend * t);
             let law = HalfPlaneMoments::new(t);
-            let expected = if area == AreaModel::Linear { here } else { here * law.clipped(slope / here, 0.0) };
-            family.mean(format!("{area:?}, slope {slope}, t = {t}"), &column(&rows, i), expected);
+            let read = match area {
+                AreaModel::Linear => law.linear(bend / here),
+                _ => law.clipped(slope_here / here, bend / here),
+            };
+            family.mean(format!("{area:?}, slope {slope}, bend {bend}, t = {t}"), &column(&rows, i), here * read);
         }
     }
     family.decide();
@@ -59,7 +67,7 @@ fn at_a_straight_edge_the_nearest_over_the_clipped_area_are_unbiased() {
     let k = 40;
     for (area, seed_of) in [(AreaModel::Clipped, 1610), (AreaModel::Linear, 1611)] {
         let rows = replicates(6000, seed(seed_of), |stream| {
-            beside_edge(lit(stream), 0.0, area, Bandwidth::Nearest { k, max_radius: f64::INFINITY })
+            beside_edge(lit(stream), [0.0; 2], area, Bandwidth::Nearest { k, max_radius: f64::INFINITY })
         });
         for (i, t) in PLACES.into_iter().enumerate() {
             family.mean(format!("{area:?}, t = {t}"), &column(&rows, i), 1.0);

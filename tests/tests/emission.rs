@@ -19,8 +19,13 @@ fn in_black_sphere(lamp: &str) -> Lab {
 
 /// How many photons landed in each of 16 x 8 cells of equal expected flux: `height` maps z to (0, 1) uniformly.
 fn cells(traced: &Traced<1>, height: impl Fn(f64) -> f64) -> Vec<u64> {
+    count(traced.positions.iter().copied(), height)
+}
+
+/// The same of points of the unit sphere.
+fn count(points: impl Iterator<Item = [f32; 3]>, height: impl Fn(f64) -> f64) -> Vec<u64> {
     let mut cells = vec![0; 128];
-    for p in &traced.positions {
+    for p in points {
         let [x, y, z] = p.map(f64::from);
         let row = ((height(z) * 16.0) as usize).min(15);
         let column = (((y.atan2(x) / TAU + 0.5) * 8.0) as usize).min(7);
@@ -45,6 +50,99 @@ fn a_point_lamp_of_intensity_one_emits_four_pi_evenly() {
     let traced = in_black_sphere(lamp).trace::<1>(PHOTONS, seed(300), 0, Classes::ALL);
     same("flux", traced.ledger.emitted[0], 3.0 * 4.0 * PI);
     family.counts("directions", &cells(&traced, |z| 0.5 * (z + 1.0)), &even(PHOTONS));
+    family.decide();
+}
+
+/// Intensity I cos^n: 2 pi I / (n + 1) in all, the share of it beyond the cosine c is 1 - c^(n + 1).
+#[test]
+fn a_lamp_by_a_power_of_the_cosine_emits_by_that_power() {
+    let mut family = Family::new("cosine lamp");
+    for (number, n) in [1.0, 8.5].into_iter().enumerate() {
+        let lamp = format!(
+            "<emitter type=\"point\"><vector name=\"direction\" x=\"0\" y=\"0\" z=\"1\"/>\
+             <float name=\"exponent\" value=\"{n}\"/><rgb name=\"intensity\" value=\"3\"/></emitter>"
+        );
+        let traced = in_black_sphere(&lamp).trace::<1>(PHOTONS, seed(310 + number as u32), 0, Classes::ALL);
+        same("flux", traced.ledger.emitted[0], 3.0 * TAU / (n + 1.0));
+        assert!(traced.positions.iter().all(|p| p[2] > -1e-6), "nothing goes back");
+        let height = |z: f64| z.max(0.0).powf(n + 1.0);
+        family.counts(format!("directions, exponent {n}"), &cells(&traced, height), &even(PHOTONS));
+    }
+    family.decide();
+}
+
+/// A spot falls from its beam to its cutoff linearly in the angle.
+#[test]
+fn a_spot_emits_by_its_falloff() {
+    let mut family = Family::new("spot lamp");
+    for (number, (beam, cutoff)) in [(20.0f64, 50.0f64), (5.0, 80.0)].into_iter().enumerate() {
+        let lamp = format!(
+            "<emitter type=\"spot\"><transform name=\"to_world\"><lookat origin=\"0 0 0\" target=\"0 0 1\" up=\"1 0 0\"/>\
+             </transform><float name=\"cutoff_angle\" value=\"{cutoff}\"/><float name=\"beam_width\" value=\"{beam}\"/>\
+             <rgb name=\"intensity\" value=\"3\"/></emitter>"
+        );
+        let (b, c) = (beam.to_radians(), cutoff.to_radians());
+        // The integral of the falloff over the solid angle up to an angle, over 2 pi.
+        let slope = |t: f64| (-(c - t) * t.cos() - t.sin()) / (c - b);
+        let within = |t: f64| {
+            if t < b { 1.0 - t.cos() } else { 1.0 - b.cos() + slope(t.min(c)) - slope(b) }
+        };
+        let traced = in_black_sphere(&lamp).trace::<1>(PHOTONS, seed(315 + number as u32), 0, Classes::ALL);
+        same("flux", traced.ledger.emitted[0], 3.0 * TAU * within(c));
+        let height = |z: f64| within(z.clamp(-1.0, 1.0).acos()) / within(c);
+        family.counts(format!("directions, {beam} and {cutoff} degrees"), &cells(&traced, height), &even(PHOTONS));
+    }
+    family.decide();
+}
+
+/// Radiance L from everywhere: pi L on every element of a ball, under each angle in proportion to its cosine.
+#[test]
+fn an_even_environment_lights_a_ball_evenly() {
+    let mut family = Family::new("even environment");
+    let lab = Lab::new(
+        r#"<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="2"/></emitter>
+        <shape type="sphere" id="ball"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>"#,
+    );
+    let traced = lab.trace::<1>(PHOTONS, seed(320), 0, Classes::ALL);
+    let landed = traced.positions.len() as u64;
+    family.counts("places", &cells(&traced, |z| 0.5 * (z + 1.0)), &even(landed));
+    family.proportion("flux", landed, PHOTONS, PI * 2.0 * 4.0 * PI / traced.ledger.emitted[0]);
+    let mut angles = vec![0; 32];
+    for (p, photon) in traced.positions.iter().zip(&traced.photons) {
+        let way = photon.direction.unpack();
+        let cosine: f64 = -p.iter().zip(way).map(|(x, d)| f64::from(*x) * f64::from(d)).sum::<f64>();
+        angles[((cosine * cosine * 32.0) as usize).min(31)] += 1;
+    }
+    family.counts("angles of arrival", &angles, &vec![landed as f64 / 32.0; 32]);
+    family.decide();
+}
+
+/// The overcast sky, L (1 + 2 sin h) / 3: its irradiance on a floor, of which the elevation h brings the more the higher it is.
+#[test]
+fn an_overcast_sky_lights_a_floor_by_its_law() {
+    let mut family = Family::new("overcast sky");
+    let lab = Lab::new(
+        r#"<scene version="3.0.0"><emitter type="sky"><string name="distribution" value="overcast"/>
+        <rgb name="radiance" value="3"/></emitter>
+        <shape type="rectangle" id="floor"><bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>"#,
+    );
+    let traced = lab.trace::<1>(PHOTONS, seed(321), 0, Classes::ALL);
+    // Photons carry unequal flux where the sky's table is coarser than the sky: each is kept by its share of the most.
+    let most = traced.photons.iter().map(|photon| photon.flux[0]).fold(0.0, f32::max);
+    let mut random = photonlab_sampling::Stream::new(seed(322), photonlab_sampling::Purpose::Synthetic, 0, 0);
+    let kept: Vec<[f32; 3]> = traced
+        .photons
+        .iter()
+        .filter(|photon| random.next() < f64::from(photon.flux[0] / most))
+        .map(|photon| photon.direction.unpack().map(|d| -d))
+        .collect();
+    let height = |z: f64| (0.5 * z * z + 2.0 / 3.0 * z.powi(3)) / (7.0 / 6.0);
+    family.counts("directions", &count(kept.iter().copied(), height), &even(kept.len() as u64));
+    // 7 pi / 9 of the zenith's radiance.
+    let block = |part: &[photonlab_photometry::Photon<1>]| part.iter().map(|p| f64::from(p.flux[0])).sum::<f64>();
+    let expected = 7.0 * PI / 9.0 * 3.0 * 4.0;
+    let passes = (0..32).map(|pass| block(&lab.trace::<1>(4000, seed(323), pass, Classes::ALL).photons));
+    family.mean("flux", &passes.collect(), expected);
     family.decide();
 }
 

@@ -124,6 +124,14 @@ fn a_time_limit_ends_the_run_in_time() {
         assert_eq!(measured["stopped"], "time");
         assert!(measured["readings"].as_array().expect("a list").iter().all(|r| r["value"].is_number()));
     }
+    // Counts far beyond the limit are cut into passes that end within it.
+    for counts in ["--photons 1e9 --passes 2", "--passes 1", "--photons 1e10", "--spp 1e9 --passes 1 --method path"] {
+        let line = format!("measure {} --json --time-limit 2 {counts}", scene("cube.xml"));
+        let answer = program.run(&line);
+        assert!(answer.took <= Duration::from_secs_f64(3.2), "{counts}: took {:?}", answer.took);
+        let measured: Value = serde_json::from_str(&answer.success(&line)).expect("JSON");
+        assert!(measured["stopped"] == "time" || counts == "--passes 1", "{counts}: {}", measured["stopped"]);
+    }
     let line = format!("render {} -o image.exr --time-limit 1", scene("cornell-box.xml"));
     let answer = program.run(&line);
     assert!(answer.took <= Duration::from_secs_f64(2.1), "limit 1 s, took {:?}", answer.took);
@@ -146,4 +154,8 @@ fn an_interrupt_leaves_no_file() {
     };
     assert_eq!(answer.status, Some(130), "{}{}", answer.out, answer.err);
     assert_eq!(std::fs::read_dir(program.folder()).expect("readable").count(), 0, "files were left");
+    let line = "\"$PHOTONLAB\" reproduce split-cost --budget paper --out deep/down & sleep 1; kill -INT $!; wait $!";
+    let answer = program.shell(line).expect("sh was there");
+    assert_eq!(answer.status, Some(130), "{}{}", answer.out, answer.err);
+    assert_eq!(std::fs::read_dir(program.folder()).expect("readable").count(), 0, "folders were left");
 }

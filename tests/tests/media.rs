@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use photonlab_measure::welch_test;
 use photonlab_photometry::Response;
 use photonlab_readout::Method;
+use photonlab_reference::medium::slab;
 use photonlab_tests::{Family, Lab, seed, settings};
 use photonlab_trace::Classes;
 
@@ -73,31 +74,64 @@ fn absorption_is_exponential_in_each_channel() {
     family.decide();
 }
 
-/// In a closed room full of haze every watt is absorbed by walls or by the haze; by rays, by maps and by counting the walls
-/// read the same, which is what the photons left there.
-#[test]
-fn every_method_reads_the_same_in_a_hazy_room() {
-    let mut family = Family::new("hazy room");
-    let lab = Lab::new(
+/// A closed room full of coloured haze that scatters forwards, around a point lamp, with what else is given.
+fn hazy_room(wall: &str, more: &str) -> Lab {
+    Lab::new(&format!(
         r#"<scene version="3.0.0">
-        <medium type="homogeneous" id="haze"><float name="sigma_t" value="0.8"/><float name="albedo" value="0.9"/>
+        <medium type="homogeneous" id="haze"><rgb name="sigma_t" value="0.4 0.8 1.6"/><float name="albedo" value="0.9"/>
             <phase type="hg"><float name="g" value="0.5"/></phase></medium>
         <emitter type="point"><point name="position" x="0.3" y="-0.2" z="0.4"/><ref name="medium" id="haze"/></emitter>
         <shape type="cube"><boolean name="flip_normals" value="true"/><ref name="exterior" id="haze"/>
-            <bsdf type="diffuse"><float name="reflectance" value="0.6"/></bsdf><sensor type="irradiancemeter"/></shape></scene>"#,
-    );
-    let counted = lab.measure::<1>(settings(Method::Bins, seed(974)), 400_000, 32, 1 << 10);
-    let walls = &counted.cells[0].value[0];
+            <bsdf type="diffuse"><float name="reflectance" value="0.6"/></bsdf>{wall}</shape>{more}</scene>"#
+    ))
+}
+
+/// In a closed room full of haze every watt is absorbed by walls or by the haze; by rays, by maps and by counting the walls
+/// read the same, which is what the photons left there; and a line of sight past the lamp shows the same by paths and by maps.
+#[test]
+fn every_method_reads_the_same_in_a_hazy_room() {
+    let mut family = Family::new("hazy room");
+    let lab = hazy_room(r#"<sensor type="irradiancemeter"/>"#, "");
+    let counted = lab.measure::<3>(settings(Method::Bins, seed(974)), 800_000, 32, 1 << 10);
     for (name, method) in [("by paths", Method::Path), ("gathered", GATHER)] {
-        let read = lab.measure::<1>(settings(method, seed(975)), 400_000, 32, 1 << 13);
-        let test = welch_test(&read.cells[0].value[0], walls).expect("two sets of passes");
-        family.compare(name, test.p_value, format!("{test:?}"));
+        let read = lab.measure::<3>(settings(method, seed(975)), 400_000, 32, 1 << 16);
+        for channel in [0, 2] {
+            let [read, walls] = [&read, &counted].map(|outcome| &outcome.cells[0].value[channel]);
+            let test = welch_test(read, walls).expect("two sets of passes");
+            family.compare(format!("{name}, channel {channel}"), test.p_value, format!("{test:?}"));
+        }
     }
-    let ledger = lab.trace::<1>(100_000, seed(976), 0, Classes::NONE).ledger;
+    let along = r#"<point name="origin" x="-0.5" y="0.2" z="0"/><vector name="direction" x="1" y="0.1" z="0.1"/>"#;
+    let eye = hazy_room("", &format!(r#"<sensor type="radiancemeter">{along}<ref name="medium" id="haze"/></sensor>"#));
+    let by_paths = eye.measure::<3>(settings(Method::Path, seed(977)), 0, 32, 1 << 16);
+    let gathered = eye.measure::<3>(settings(GATHER, seed(978)), 400_000, 32, 1 << 16);
+    for channel in [0, 2] {
+        let [by_paths, gathered] = [&by_paths, &gathered].map(|outcome| &outcome.cells[0].value[channel]);
+        let test = welch_test(by_paths, gathered).expect("two sets of passes");
+        family.compare(format!("line of sight, channel {channel}"), test.p_value, format!("{test:?}"));
+    }
+    let ledger = lab.trace::<3>(100_000, seed(976), 0, Classes::NONE).ledger;
     let total = ledger.total();
     assert_eq!(total.escaped[0], 0.0, "the room is closed");
     let walls: f64 = ledger.surfaces.iter().map(|surface| surface.absorbed[0]).sum();
     assert!(walls < 0.95 * total.absorbed[0], "the haze takes its part");
     assert!((total.accounted()[0] / ledger.emitted[0] - 1.0).abs() < 1e-9);
+    family.decide();
+}
+
+/// A slab that scatters forwards and absorbs, in light of radiance 1 from above: what it lets through, and what it sends back
+/// straight up and at 60 degrees (catalogue F7). Scattering the wrong way or absorbing nothing cannot give these.
+#[test]
+fn a_forward_scattering_slab_parts_light_as_it_should() {
+    let mut family = Family::new("forward slab");
+    let wanted = "diffuse, thickness 1, albedo 0.9, g 0.75";
+    let case = slab::cases().into_iter().find(|case| case.name == wanted).expect("a case of the catalogue");
+    let lab = Lab::new(&case.xml);
+    for (name, method) in [("by paths", Method::Path), ("gathered", GATHER)] {
+        let read = lab.measure::<1>(settings(method, seed(979)), 100_000, 24, 1 << 15);
+        for (cell, expected) in read.cells.iter().zip(&case.expected) {
+            family.reading(format!("{name}, {}", expected.sensor), cell, 0, expected.value[0]);
+        }
+    }
     family.decide();
 }

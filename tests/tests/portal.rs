@@ -4,7 +4,7 @@ use photonlab_measure::welch_test;
 use photonlab_readout::{Method, Outcome};
 use photonlab_reference::catalogue::Case;
 use photonlab_reference::daylight::{
-    roof_opening::{RoofOpening, cases},
+    roof_opening::{RoofOpening, cases_without_portals as cases},
     sky::Sky,
 };
 use photonlab_tests::{Answer, Family, Lab, Program, seed, settings};

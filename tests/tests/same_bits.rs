@@ -86,6 +86,7 @@ fn the_fixed_command_gives_the_same_bits() {
     for options in [
         format!("measure {cube} --target-error 3%"),
         format!("measure {cube} --time-limit 1 --seed 4"),
+        format!("measure {cube} --time-limit 1 --photons 1e9 --passes 3"),
         format!("measure {cube} --photons 1e5 --spp 100 --sensor C --units photometric --confidence 0.9"),
         format!("measure {cube} --k 20 --passes 5 --seed 18446744073709551615"),
         format!("measure {cube} --radius 0.25 --passes 3 --spp 10 --max-depth 4 --area sphere --direct photons"),

@@ -2,34 +2,47 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
 use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimator, Kernel, PhotonMap, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
-use crate::{EyeLimits, Light, Place, Start, segment, segment::Emitted};
+use crate::{
+    EyeLimits, InScattering, Light, Place, Start, VolumeMaps, collision::around_lamp_in_medium, segment,
+    segment::Emitted,
+};
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
 const FREE_BOUNCES: u32 = 3;
 
-/// A map and the radius and kernel with which it is read.
-#[derive(Clone, Copy)]
-pub struct MapWithRadius<'m, const C: usize> {
+/// A map and the radius with which it is read.
+pub struct MapWithRadius<'m, M> {
     /// The photons.
-    pub map: &'m PhotonMap<C>,
+    pub map: &'m M,
     /// Metres.
     pub radius: f64,
-    /// How its photons are weighed.
-    pub kernel: Kernel,
 }
+
+impl<M> Clone for MapWithRadius<'_, M> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<M> Copy for MapWithRadius<'_, M> {}
 
 /// The maps that final gather reads.
 #[derive(Clone, Copy)]
 pub struct GatherMaps<'m, const C: usize> {
     /// All photons; `None` if no light is reflected diffusely onto anything.
-    pub surface: Option<MapWithRadius<'m, C>>,
+    pub surface: Option<MapWithRadius<'m, PhotonMap<C>>>,
     /// Photons that came through specular surfaces alone; `None` if there are none.
-    pub caustic: Option<MapWithRadius<'m, C>>,
+    pub caustic: Option<MapWithRadius<'m, PhotonMap<C>>>,
+    /// Photons in media; `None` if no medium scatters.
+    pub volume: Option<VolumeMaps<'m, C>>,
+    /// How photons on surfaces are weighed.
+    pub kernel: Kernel,
 }
 
 /// Final gather over maps, or path tracing without.
@@ -72,16 +85,24 @@ impl<const C: usize> Gatherer<'_, C> {
                 break;
             }
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+            stream.leave_prefix();
+            let (direction, share) = self.turned_to_lamp(&at, &sight, direction, stream);
             let cosine = sight.normals.cosine(direction);
             if cosine == 0.0 {
                 break;
             }
-            weight = weight * sight.weight(cosine);
-            stream.leave_prefix();
+            weight = weight * (share * sight.weight(cosine));
             let ray = Ray::new(at.position, direction);
             let seeks_lamps = self.maps.is_none();
-            let start =
-                Start { ray, from: Some(at.primitive), reach: f64::INFINITY, used, seeks_lamps, medium: sight.medium };
+            let start = Start {
+                ray,
+                from: Some(at.primitive),
+                reach: f64::INFINITY,
+                used,
+                seeks_lamps,
+                medium: sight.medium,
+                in_scattering: self.in_scattering(),
+            };
             let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
             // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
             if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
@@ -89,10 +110,7 @@ impl<const C: usize> Gatherer<'_, C> {
                 let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
-            if !landing.scattered.is_zero() {
-                let contribution = Light { irradiance: landing.scattered * PI, ..Light::default() };
-                light.add(&contribution.weighted(weight));
-            }
+            light.add(&landing.scattered.weighted(weight * PI));
             if self.maps.is_none() {
                 // Light that came through specular surfaces alone; with maps it is in the caustic map.
                 let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
@@ -122,6 +140,26 @@ impl<const C: usize> Gatherer<'_, C> {
         light
     }
 
+    /// Without maps, half of the rays from a point are drawn around a lamp without extent, if one that stands in a medium is
+    /// chosen (see [`AroundPoint`](photonlab_sampling::AroundPoint)): the direction, and its density by the cosine over that by
+    /// which it was drawn.
+    fn turned_to_lamp(&self, at: &SurfacePoint, sight: &Sight<C>, drawn: DVec3, stream: &mut Stream) -> (DVec3, f64) {
+        let lamps = &self.optics.lamps;
+        if self.maps.is_some() || self.world.scene.media.is_empty() || lamps.lamps.is_empty() {
+            return (drawn, 1.0);
+        }
+        let lamp = lamps.choose(stream.next());
+        let Some(around) = around_lamp_in_medium(self.optics, lamp, at.position) else { return (drawn, 1.0) };
+        let direction = if stream.next() < 0.5 { around.draw(stream) } else { drawn };
+        let by_cosine = warp::cosine_hemisphere_pdf_solid_angle(sight.normals.cosine(direction));
+        (direction, by_cosine / (0.5 * by_cosine + 0.5 * around.pdf_solid_angle(direction)))
+    }
+
+    /// How light that media scatter into a gather ray is found.
+    fn in_scattering(&self) -> InScattering<'_, C> {
+        self.maps.and_then(|maps| maps.volume).map_or(InScattering::ByPaths, InScattering::Gathered)
+    }
+
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
     fn lamps_at(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, share: f64, stream: &mut Stream) -> Light<C> {
         let xi = [stream.next(), stream.next(), stream.next()];
@@ -142,10 +180,10 @@ impl<const C: usize> Gatherer<'_, C> {
 
     /// Caustic light, straight from its map.
     fn caustics_at(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, scratch: &mut Scratch) -> Light<C> {
-        let Some(caustic) = self.maps.and_then(|maps| maps.caustic) else {
+        let Some((maps, caustic)) = self.maps.and_then(|maps| Some((maps, maps.caustic?))) else {
             return Light::default();
         };
-        let mut light = self.read(&caustic, at, sight, used, scratch);
+        let mut light = self.read((&caustic, maps.kernel), at, sight, used, scratch);
         if light.photons > 0.0 && self.world.ball_leaves_surface(at, CHECK * caustic.radius) {
             light.unresolved = light.irradiance;
         }
@@ -163,15 +201,16 @@ impl<const C: usize> Gatherer<'_, C> {
         used: u32,
         scratch: &mut Scratch,
     ) -> Option<Light<C>> {
-        let surface = self.maps?.surface?;
+        let maps = self.maps?;
+        let surface = maps.surface?;
         let near =
             distance < 2.0 * surface.radius || self.world.ball_leaves_surface(&hit.point, CHECK * surface.radius);
-        (!near).then(|| self.read(&surface, &hit.point, sight, used, scratch))
+        (!near).then(|| self.read((&surface, maps.kernel), &hit.point, sight, used, scratch))
     }
 
     fn read(
         &self,
-        source: &MapWithRadius<'_, C>,
+        (source, kernel): (&MapWithRadius<'_, PhotonMap<C>>, Kernel),
         at: &SurfacePoint,
         sight: &Sight<C>,
         used: u32,
@@ -181,7 +220,7 @@ impl<const C: usize> Gatherer<'_, C> {
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let bandwidth = Bandwidth::Radius(source.radius);
         // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
-        let estimator = Estimator { kernel: source.kernel, area: AreaModel::Disc };
+        let estimator = Estimator { kernel, area: AreaModel::Disc };
         let place = Place { world: self.world, optics: self.optics, at, sight };
         let estimate = place.estimate(source.map, bandwidth, estimator, &tests, scratch);
         Light {

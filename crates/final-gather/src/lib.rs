@@ -2,15 +2,19 @@
 //!
 //! [`Gatherer::irradiance`] estimates all light at a diffuse point: direct light by lamp sampling, caustic light straight
 //! from the caustic map, and the rest by a ray over the hemisphere that gathers where it lands. Without maps the
-//! same walk is a path tracer, the control that photon maps are held against.
+//! same walk is a path tracer, the control that photon maps are held against. In media [`InScattering`] says how.
 #![forbid(unsafe_code)]
 
+mod collision;
 mod gatherer;
+mod in_scattering;
 mod light;
 mod place;
 mod segment;
+mod stretches;
 
 pub use gatherer::{GatherMaps, Gatherer, MapWithRadius};
+pub use in_scattering::{InScattering, VolumeMaps};
 pub use light::Light;
 pub use place::Place;
 pub use segment::{EyeLimits, Landing, Start, follow};

@@ -3,10 +3,14 @@
 use glam::DVec3;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{
-    Flight, Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, Volume, balance_pdf, goes_through,
-    lamp_pdf_solid_angle, phase_pdf_solid_angle, scatter,
+    Followed, Interaction, LightDraw, Matte, Optics, Sight, Stream, balance_pdf, goes_through, lamp_pdf_solid_angle,
 };
 use photonlab_scene::{Hit, Ray, World};
+
+use crate::{
+    Light,
+    in_scattering::{Crossing, InScattering},
+};
 
 /// When a ray that looks for light gives up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,8 +34,8 @@ pub struct Landing<const C: usize> {
     /// Radiance that reached the ray from lamps behind at least one specular surface, lamps seen from rough surfaces
     /// included.
     pub emitted: Colour<C>,
-    /// Radiance that the ray's surroundings scattered into it, and lamps seen from there.
-    pub scattered: Colour<C>,
+    /// Radiance that media scattered into the ray, and lamps seen from there; in radiance, not irradiance.
+    pub scattered: Light<C>,
     /// What the very first surface, or the environment behind no surface, emits towards the ray.
     pub first_emission: Option<Emitted<C>>,
     /// The matte point it ended on, what is seen of it, and the weight of radiance from there.
@@ -53,9 +57,9 @@ pub struct Emitted<const C: usize> {
     pub shared_pdf: Option<f64>,
 }
 
-/// Where a ray that looks for light starts.
-#[derive(Clone, Copy, Debug)]
-pub struct Start {
+/// Where a ray that looks for light starts, and how.
+#[derive(Clone, Copy)]
+pub struct Start<'m, const C: usize> {
     /// The ray.
     pub ray: Ray,
     /// The primitive it starts on, if any.
@@ -68,24 +72,31 @@ pub struct Start {
     pub seeks_lamps: bool,
     /// The medium in which it starts.
     pub medium: Option<u32>,
+    /// How light that media scatter into it is found.
+    pub in_scattering: InScattering<'m, C>,
 }
 
 /// A ray on its way.
-struct Walk<'w, const C: usize> {
-    world: &'w World,
-    optics: &'w Optics<C>,
-    ray: Ray,
-    from: Option<u32>,
-    medium: Option<u32>,
+pub(crate) struct Walk<'w, 'm, const C: usize> {
+    pub(crate) world: &'w World,
+    pub(crate) optics: &'w Optics<C>,
+    pub(crate) ray: Ray,
+    pub(crate) from: Option<u32>,
+    pub(crate) medium: Option<u32>,
+    pub(crate) in_scattering: InScattering<'m, C>,
+    /// The lamp that is drawn in media, once one is met.
+    pub(crate) lamp: Option<usize>,
     /// Where it was bent last or started: from there lamps would have been drawn. Masks that it passes change nothing.
-    seen_from: DVec3,
-    weight: Colour<C>,
-    /// Density per solid angle with which the last rough surface drew the ray; `None` if it sought no lamp.
-    rough_pdf: Option<f64>,
-    bent: bool,
+    pub(crate) seen_from: DVec3,
+    pub(crate) weight: Colour<C>,
+    /// Density per solid angle of the ray as the last rough surface or medium draws it; `None` if it sought no lamp.
+    pub(crate) rough_pdf: Option<f64>,
+    pub(crate) bent: bool,
     /// True once a medium has scattered the ray.
-    scattered: bool,
-    landing: Landing<C>,
+    pub(crate) scattered: bool,
+    /// True if a surface has bent the ray since a medium scattered it or it started.
+    pub(crate) turned: bool,
+    pub(crate) landing: Landing<C>,
 }
 
 /// Follows a ray through specular surfaces to the first matte one.
@@ -93,12 +104,12 @@ pub fn follow<const C: usize>(
     world: &World,
     optics: &Optics<C>,
     limits: &EyeLimits,
-    start: Start,
+    start: Start<'_, C>,
     stream: &mut Stream,
 ) -> Landing<C> {
     let landing = Landing {
         emitted: Colour::ZERO,
-        scattered: Colour::ZERO,
+        scattered: Light::default(),
         first_emission: None,
         matte: None,
         segments: start.used,
@@ -111,11 +122,14 @@ pub fn follow<const C: usize>(
         ray: start.ray,
         from: start.from,
         medium: start.medium,
+        in_scattering: start.in_scattering,
+        lamp: None,
         seen_from: start.ray.origin,
         weight: Colour::ONE,
         rough_pdf: None,
         bent: false,
         scattered: false,
+        turned: false,
         landing,
     };
     let mut specular = 0;
@@ -123,16 +137,13 @@ pub fn follow<const C: usize>(
         let reach = if walk.bent { f64::INFINITY } else { start.reach - walk.landing.distance };
         let hit = world.cast(&walk.ray, walk.from, reach);
         if let Some(medium) = walk.medium {
-            let reach = hit.map_or(reach, |hit| hit.distance);
-            let volume = optics.volume(medium);
-            let Flight { collision, factor } = volume.fly(walk.weight, reach, stream);
-            walk.weight = walk.weight * factor;
-            if let Some(distance) = collision {
-                if !walk.collide(volume, distance, limits, stream) {
-                    break;
+            match walk.cross(medium, hit.map_or(reach, |hit| hit.distance), limits, stream) {
+                Crossing::Passed => {}
+                Crossing::Turned => {
+                    specular = 0;
+                    continue;
                 }
-                specular = 0;
-                continue;
+                Crossing::Ended => break,
             }
         }
         let Some(hit) = hit else {
@@ -168,14 +179,14 @@ pub fn follow<const C: usize>(
             }
             Interaction::Followed(followed) => {
                 walk.arrive(&hit);
-                let seeks = (start.seeks_lamps || walk.scattered) && limits.allows(walk.landing.segments + 1);
+                let seeks = walk.seeks_lamps(start.seeks_lamps) && limits.allows(walk.landing.segments + 1);
                 if !walk.go_on(&hit, followed, seeks, stream) {
                     break;
                 }
             }
             Interaction::Dispersed(dispersive) => {
                 walk.arrive(&hit);
-                let seeks = (start.seeks_lamps || walk.scattered) && limits.allows(walk.landing.segments + 1);
+                let seeks = walk.seeks_lamps(start.seeks_lamps) && limits.allows(walk.landing.segments + 1);
                 let (followed, factor) = dispersive.settle(walk.weight, stream);
                 walk.weight = walk.weight * factor;
                 if !walk.go_on(&hit, &followed, seeks, stream) {
@@ -191,7 +202,7 @@ pub fn follow<const C: usize>(
     walk.landing
 }
 
-impl<const C: usize> Walk<'_, C> {
+impl<const C: usize> Walk<'_, '_, C> {
     /// Counts the segment and what the surface emits.
     fn arrive(&mut self, hit: &Hit) {
         self.landing.segments += 1;
@@ -223,6 +234,12 @@ impl<const C: usize> Walk<'_, C> {
         }
     }
 
+    /// True if rough surfaces look for lamps: where the ray started for that, or since a medium scattered it, unless caustic
+    /// light is read from a map there.
+    fn seeks_lamps(&self, from_start: bool) -> bool {
+        if self.scattered { matches!(self.in_scattering, InScattering::ByPaths) } else { from_start }
+    }
+
     /// A lamp behind a specular surface. A rough one has drawn lamps as well: the balance heuristic (Veach and Guibas 1995)
     /// shares the work by both densities.
     fn behind_specular(&mut self, radiance: Colour<C>, pdfs: Option<(f64, f64)>) {
@@ -241,43 +258,14 @@ impl<const C: usize> Walk<'_, C> {
         true
     }
 
-    /// Counts light found behind a specular surface or in a medium.
+    /// Counts light found behind a specular surface or in a medium. What came to a medium through specular surfaces was read
+    /// from the map, if there is one.
     fn find(&mut self, radiance: Colour<C>) {
-        if self.scattered {
-            self.landing.scattered += radiance;
-        } else {
+        if !self.scattered {
             self.landing.emitted += radiance;
+        } else if !self.turned || matches!(self.in_scattering, InScattering::ByPaths) {
+            self.landing.scattered.irradiance += radiance;
         }
-    }
-
-    /// Meets the matter of a medium: looks for a lamp, and goes on where the light came from; false if the ray ends.
-    ///
-    /// The lamp drawn and the lamp that the ray meets next share the work by the balance heuristic (Veach and Guibas 1995).
-    fn collide(&mut self, volume: &Volume<C>, distance: f64, limits: &EyeLimits, stream: &mut Stream) -> bool {
-        let at = self.ray.at(distance);
-        self.landing.segments += 1;
-        self.landing.distance += distance;
-        (self.scattered, self.bent, self.landing.met_rough) = (true, true, true);
-        let before = self.weight.max();
-        self.weight = self.weight * volume.albedo;
-        let survival = (self.weight.max() / before).min(1.0);
-        if !limits.allows(self.landing.segments + 1) || survival <= 0.0 || stream.next() >= survival {
-            return false;
-        }
-        self.weight = self.weight * (1.0 / survival);
-        let xi = [stream.next(), stream.next(), stream.next()];
-        if let Some(draw) = LightDraw::new(self.world, &self.optics.lamps, at, xi) {
-            let phase = phase_pdf_solid_angle(volume.phase, draw.direction.dot(self.ray.direction));
-            let pdf = draw.pdf_solid_angle;
-            let balance = if pdf > 0.0 { pdf / (pdf + phase) } else { 1.0 };
-            let reaches = draw.reaches(self.world, self.optics, at, None, self.medium);
-            self.find(self.weight * draw.radiance_over_pdf * reaches * (phase * balance));
-        }
-        // Seen from the eye, light that goes on along the reversed ray came from the direction that is drawn here.
-        let direction = scatter(volume.phase, self.ray.direction, stream);
-        self.rough_pdf = Some(phase_pdf_solid_angle(volume.phase, direction.dot(self.ray.direction)));
-        (self.ray, self.from, self.seen_from) = (Ray::new(at, direction), None, at);
-        true
     }
 
     /// Goes on along another ray.
@@ -289,7 +277,7 @@ impl<const C: usize> Walk<'_, C> {
         self.ray = ray;
         self.from = Some(hit.point.primitive);
         self.rough_pdf = rough_pdf;
-        self.bent = true;
+        (self.bent, self.turned) = (true, true);
     }
 
     /// Adds what a rough surface shows of one lamp.

@@ -1,4 +1,5 @@
-//! Photons near a point in, illuminance with its error out.
+//! Photons near a point in, illuminance with its error out; photons in a medium near a point or a ray in, the light that is
+//! scattered there out.
 //!
 //! Stands on the tree and the photon record alone. What the estimate means near an edge or another surface is the
 //! caller's to judge: it knows the geometry.
@@ -9,9 +10,11 @@ mod boundary;
 mod estimate;
 mod kernel;
 mod map;
+mod volume;
 
 pub use bandwidth::{AreaModel, Bandwidth, Estimator, Tests};
 pub use boundary::{Inside, OpenPlane, Surroundings};
 pub use estimate::Estimate;
 pub use kernel::Kernel;
 pub use map::{CHECK, GatherPoint, PhotonMap, SAME_SURFACE, Scratch};
+pub use volume::{Beam, Scattered, VolumeEstimate, VolumeMap};

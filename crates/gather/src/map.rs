@@ -34,6 +34,12 @@ pub struct Scratch {
     found: Neighbours,
 }
 
+impl Scratch {
+    pub(crate) fn neighbours(&mut self) -> &mut Neighbours {
+        &mut self.found
+    }
+}
+
 impl<const C: usize> PhotonMap<C> {
     /// Builds the map.
     pub fn build(positions: Vec<[f32; 3]>, photons: Vec<Photon<C>>, rule: SplitRule) -> Result<Self, BuildError> {

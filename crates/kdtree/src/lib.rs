@@ -1,8 +1,8 @@
 //! Nearest points and points in a ball; knows nothing about light.
 //!
-//! A [`KdTree`] takes points and one payload for each, and answers two questions: which points lie in a closed
-//! ball ([`KdTree::within`]) and which are the k nearest, of all ([`KdTree::nearest`]) or of those that the caller
-//! accepts ([`KdTree::nearest_accepted`]). Planes are placed by a [`SplitRule`]. Whatever the rule and the
+//! A [`KdTree`] takes points and one payload for each, and answers three questions: which points lie in a closed
+//! ball ([`KdTree::within`]), which are the k nearest, of all ([`KdTree::nearest`]) or of those that the caller
+//! accepts ([`KdTree::nearest_accepted`]), and which lie near a segment of a line ([`KdTree::near_segment`]). Planes are placed by a [`SplitRule`]. Whatever the rule and the
 //! [`Instructions`], every answer equals that of the obvious loop over the points in tree order, bit for bit: the
 //! `f32` value that [`distance_squared`] computes decides, rounding, overflow and underflow and all, and of points
 //! equally far the first in tree order is nearer. The tree depends on the points and the rule alone, never on the
@@ -47,6 +47,7 @@ mod nearest;
 mod neighbours;
 mod node;
 mod rule;
+mod segment;
 mod shape;
 mod surface_area;
 mod sweep;
@@ -59,6 +60,7 @@ pub use error::BuildError;
 pub use lanes::Instructions;
 pub use neighbours::{Neighbour, Neighbours};
 pub use rule::{DEFAULT_LEAF_LIMIT, EmptyCost, SplitRule};
+pub use segment::segment_distance_squared;
 pub use shape::TreeShape;
 pub use tree::KdTree;
 pub use visit_cost::{Reach, VisitCost};

@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::finite::{NotFinite, finite};
 use crate::run::is_date;
-use crate::{Budget, Comparison, FigureData, ImageEntry, Run, Verdict, replace_file};
+use crate::{Budget, Comparison, FigureData, Group, ImageEntry, Run, Verdict, replace_file};
 
 /// One row of a record: every replicate has one, failures too. Build numbers with [`json_number`](crate::json_number).
 pub type Row = BTreeMap<String, Value>;
@@ -43,6 +43,9 @@ pub struct Record {
     pub seeds: Vec<u64>,
     /// Expected against measured.
     pub comparisons: Vec<Comparison>,
+    /// The comparisons in groups, where there are many: none, or groups that hold all of them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<Group>,
     /// Every replicate's row.
     pub rows: Vec<Row>,
     /// The numbers of its figures.
@@ -122,12 +125,18 @@ impl Record {
     }
 
     /// Refuses numbers that are not finite, intervals out of order, a date that is none, figure ids used twice and
-    /// image paths that leave the record's folder.
+    /// image paths that leave the record's folder, and groups that do not hold all comparisons.
     pub fn check(&self) -> Result<(), RecordError> {
         self.check_numbers().map_err(|source| RecordError::NotFinite { claim: self.claim.clone(), source })?;
         self.check_intervals()?;
         if !is_date(&self.run.date) {
             return Err(self.wrong("run.date", format!("{:?} is not YYYY-MM-DD", self.run.date)));
+        }
+        let grouped: usize = self.groups.iter().map(|group| group.comparisons).sum();
+        if !self.groups.is_empty() && grouped != self.comparisons.len() {
+            return Err(
+                self.wrong("groups", format!("{grouped} of {} comparisons are in them", self.comparisons.len()))
+            );
         }
         let mut seen = BTreeSet::new();
         if let Some(twice) = self.figures.iter().find(|f| !seen.insert(&f.id)) {

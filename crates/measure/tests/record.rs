@@ -4,8 +4,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use photonlab_measure::{
-    Axis, Budget, Comparison, Expected, FigureData, ImageEntry, Interval, Point, Record, RecordError, Row, Run, Series,
-    SeriesKind, Verdict, json_number,
+    Axis, Budget, Comparison, Expected, FigureData, Group, ImageEntry, Interval, Point, Record, RecordError, Row, Run,
+    Series, SeriesKind, Verdict, json_number,
 };
 
 fn example() -> Record {
@@ -31,6 +31,7 @@ fn example() -> Record {
         },
         seeds: vec![1, u64::MAX],
         comparisons: vec![Comparison::judge("ratio to truth", "1", Expected::exact(0.25, "A4"), Some(measured))],
+        groups: vec![Group { title: "spheres".into(), summary: "all agree".into(), comparisons: 1 }],
         rows: vec![Row::from([("seed".into(), 1.into()), ("ratio".into(), json_number("ratio", 0.2502).unwrap())])],
         figures: vec![FigureData {
             id: "ratio".into(),

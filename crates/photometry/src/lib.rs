@@ -19,6 +19,6 @@ pub use curve::{Curve, CurveError};
 pub use direction::PackedDirection;
 pub use observer::{PEAK_EFFICACY, SRGB_OF_XYZ, VISIBLE, daylight, matching, sensitivity};
 pub use palette::{Palette, Response, Wavelengths};
-pub use photon::{PathClass, Photon};
+pub use photon::{PathClass, Photon, VolumePhoton};
 pub use quantity::{Quantity, Unit, UnitSystem};
 pub use spectrum::Spectrum;

@@ -109,8 +109,8 @@ fn target(sensor: &Sensor) -> Target {
 
 /// The ray through a point of a pixel and a point of the lens, from the near clipping plane, and its length to the far one.
 pub(crate) fn pixel_ray(camera: &Camera, film: Film, cell: [u32; 2], xi: [f64; 2], on_lens: [f64; 2]) -> (Ray, f64) {
-    let across = (f64::from(cell[0]) + xi[0]) / f64::from(film.width) - camera.principal_point_offset[0];
-    let down = (f64::from(cell[1]) + xi[1]) / f64::from(film.height) - camera.principal_point_offset[1];
+    let across = (f64::from(cell[0]) + xi[0]) / f64::from(film.width) + camera.principal_point_offset[0];
+    let down = (f64::from(cell[1]) + xi[1]) / f64::from(film.height) + camera.principal_point_offset[1];
     let local =
         DVec3::new((1.0 - 2.0 * across) * camera.tan_half_width, (1.0 - 2.0 * down) * camera.tan_half_height, 1.0);
     // All rays of a pixel's point meet where it is in focus.
@@ -176,6 +176,25 @@ mod tests {
 
     /// From all over the lens the rays of one point of the film meet in the plane in focus, where the pinhole's ray goes
     /// through it, and start in the plane of the near clipping distance.
+    /// Where Mitsuba 3.9.1 looks with these offsets, at the film's first corner and its middle.
+    #[test]
+    fn a_principal_point_is_mitsubas() {
+        let camera = Camera {
+            to_world: DAffine3::IDENTITY,
+            tan_half_width: 20f64.to_radians().tan(),
+            tan_half_height: 20f64.to_radians().tan() / 1.5,
+            principal_point_offset: [0.2, -0.15],
+            near_clip: 0.1,
+            far_clip: 10.0,
+            lens: None,
+        };
+        for (place, x, y) in [(0.0, 0.218382, 0.315441), (0.5, -0.145588, 0.072794)] {
+            let (ray, _) = pixel_ray(&camera, Film { width: 1, height: 1 }, [0, 0], [place; 2], [0.0; 2]);
+            let seen = ray.direction / ray.direction.z;
+            assert!((seen - DVec3::new(x, y, 1.0)).length() < 1e-6, "{seen}");
+        }
+    }
+
     #[test]
     fn a_lens_brings_its_plane_to_focus() {
         let to_world = DAffine3::from_scale_rotation_translation(

@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use photonlab_final_gather::{EyeLimits, Gatherer, Light, Place, Start, follow};
+use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Start, follow};
 use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
-use photonlab_scene::{SurfacePoint, World};
+use photonlab_scene::{Ray, SurfacePoint, World};
 
 use crate::{
     Cell, Direct, Method, Settings, Target,
@@ -79,11 +79,15 @@ impl<const C: usize> Look<'_, C> {
             Target::Pixel { camera, film } => pixel_ray(camera, *film, cell.cell, [x, y], [z, last]),
         };
         let medium = self.world.scene.sensors[cell.sensor].medium;
-        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium };
+        let in_scattering = self.in_scattering();
+        let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium, in_scattering };
+        let hides_lamps = self.world.scene.hides_lamps && matches!(cell.target, Target::Pixel { .. });
+        let start = if hides_lamps { self.past_lamps(start) } else { Some(start) };
+        let Some(start) = start else { return Sample { light: Light::default(), dark: true } };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
-        let emitted =
-            landing.emitted + landing.scattered + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
-        let mut light = Light { irradiance: emitted, ..Light::default() };
+        let mut light = landing.scattered;
+        light.irradiance += landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
+        let emitted = light.irradiance;
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {
             let seed = Seed { first, sample, shift, share: 0.0, radius };
@@ -92,6 +96,32 @@ impl<const C: usize> Look<'_, C> {
         }
         let may_be_lit = landing.met_rough || matte.is_some_and(|_| self.limits().allows(landing.segments + 1));
         Sample { light, dark: emitted.is_zero() && !may_be_lit }
+    }
+
+    /// How light that media scatter into a ray from an eye or a meter is found.
+    fn in_scattering(&self) -> InScattering<'_, C> {
+        let draws_lamps = self.settings.direct == Direct::Sampled;
+        match (self.settings.method, self.maps.volume_maps()) {
+            (Method::Path | Method::Bins, _) | (_, None) => InScattering::ByPaths,
+            (Method::FinalGather { .. }, Some(maps)) => InScattering::ByLook(maps),
+            (Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive, Some(maps)) => {
+                InScattering::FromMap { map: maps.all, draws_lamps }
+            }
+        }
+    }
+
+    /// The ray from behind the shapes that shine before the first that does not; `None` if there is none.
+    fn past_lamps<'m>(&self, mut start: Start<'m, C>) -> Option<Start<'m, C>> {
+        loop {
+            let hit = self.world.cast(&start.ray, start.from, start.reach)?;
+            let primitive = hit.point.primitive;
+            if self.world.shape_of(primitive).radiance.is_none() {
+                return Some(start);
+            }
+            start.medium = self.world.medium_beside(primitive, !hit.front, start.medium);
+            start.ray = Ray::new(hit.point.position, start.ray.direction);
+            (start.from, start.reach) = (Some(primitive), start.reach - hit.distance);
+        }
     }
 
     fn stream(&self, index: u64) -> Stream {

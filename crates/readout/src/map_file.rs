@@ -1,16 +1,16 @@
 //! Saved photon maps: one versioned, checksummed file.
 //!
 //! Layout, little endian: `PHOTONLB`, version u32, channels u32, identity u128, seed u64, classes u32 (bits direct 1,
-//! caustic 2, indirect 4), longest path u32 (0 is unlimited), longest specular run u32, lamps' ledger and photons of each
-//! pass, and a 128-bit hash of all bytes before it. Trees are built when a map is read: that is faster than reading them.
+//! caustic 2, indirect 4), longest path u32 (0 is unlimited), longest specular run u32, lamps' ledger, photons on surfaces and
+//! photons in media of each pass, and a 128-bit hash of all bytes before it. Trees are built when a map is read: that is faster than reading them.
 
 use std::{
     io,
     path::{Path, PathBuf},
 };
 
-use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
-use photonlab_trace::{Book, Classes, Ledger, Limits, SurfaceBook};
+use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon, VolumePhoton};
+use photonlab_trace::{Book, Classes, Ledger, Limits, SurfaceBook, VolumeRecords};
 
 use crate::{
     PassPhotons,
@@ -18,7 +18,7 @@ use crate::{
 };
 
 pub(crate) const MAGIC: &[u8; 8] = b"PHOTONLB";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What a map is of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -130,14 +130,42 @@ fn write_pass<const C: usize>(out: &mut Hashing, pass: &PassPhotons<C>) -> io::R
     out.put(&pass.ledger.trapped_paths.to_le_bytes())?;
     out.put(&(pass.photons.len() as u64).to_le_bytes())?;
     for (position, photon) in pass.positions.iter().zip(&pass.photons) {
-        for value in position.iter().chain(&photon.flux) {
-            out.put(&value.to_le_bytes())?;
-        }
-        out.put(&photon.direction.to_bits().to_le_bytes())?;
-        out.put(&photon.normal.to_bits().to_le_bytes())?;
-        out.put(&(u32::from(photon.segments) | (photon.class as u32) << 16).to_le_bytes())?;
+        let Photon { flux, direction, normal, class, segments } = photon;
+        write_record(out, position, flux, [direction.to_bits(), normal.to_bits(), way(*class, *segments)])?;
+    }
+    out.put(&(pass.volume.photons.len() as u64).to_le_bytes())?;
+    for (position, photon) in pass.volume.positions.iter().zip(&pass.volume.photons) {
+        let VolumePhoton { flux, direction, medium, class, segments } = photon;
+        write_record(out, position, flux, [direction.to_bits(), *medium, way(*class, *segments)])?;
     }
     Ok(())
+}
+
+fn write_record(out: &mut Hashing, position: &[f32; 3], flux: &[f32], rest: [u32; 3]) -> io::Result<()> {
+    position.iter().chain(flux).try_for_each(|value| out.put(&value.to_le_bytes()))?;
+    rest.iter().try_for_each(|value| out.put(&value.to_le_bytes()))
+}
+
+/// Class and segments of a path in one number.
+fn way(class: PathClass, segments: u16) -> u32 {
+    u32::from(segments) | (class as u32) << 16
+}
+
+/// One record: position, flux, two numbers, and its way.
+type Record<const C: usize> = ([f32; 3], [f32; C], [u32; 2], PathClass, u16);
+
+fn read_record<const C: usize>(bytes: &mut Bytes) -> Result<Record<C>, MapFileError> {
+    let position = [bytes.f32()?, bytes.f32()?, bytes.f32()?];
+    let mut flux = [0.0; C];
+    for value in &mut flux {
+        *value = bytes.f32()?;
+    }
+    let numbers = [bytes.u32()?, bytes.u32()?];
+    let way = bytes.u32()?;
+    let Some(&class) = PathClass::ALL.get((way >> 16) as usize) else {
+        return Err(bytes.unusable("it holds a path class that this program does not know"));
+    };
+    Ok((position, flux, numbers, class, way as u16))
 }
 
 /// Every flux of a ledger, in the order of the file.
@@ -190,18 +218,17 @@ fn pass<const C: usize>(bytes: &mut Bytes, surfaces: usize) -> Result<PassPhoton
     let count = bytes.u64()? as usize;
     let (mut positions, mut photons) = (Vec::new(), Vec::new());
     for _ in 0..count {
-        positions.push([bytes.f32()?, bytes.f32()?, bytes.f32()?]);
-        let mut flux = [0.0; C];
-        for value in &mut flux {
-            *value = bytes.f32()?;
-        }
-        let direction = PackedDirection::from_bits(bytes.u32()?);
-        let normal = PackedDirection::from_bits(bytes.u32()?);
-        let packed = bytes.u32()?;
-        let Some(&class) = PathClass::ALL.get((packed >> 16) as usize) else {
-            return Err(bytes.unusable("it holds a path class that this program does not know"));
-        };
-        photons.push(Photon { flux, direction, normal, class, segments: packed as u16 });
+        let (position, flux, [direction, normal], class, segments) = read_record(bytes)?;
+        let [direction, normal] = [direction, normal].map(PackedDirection::from_bits);
+        positions.push(position);
+        photons.push(Photon { flux, direction, normal, class, segments });
     }
-    Ok(PassPhotons { positions, photons, ledger, emitted })
+    let mut volume = VolumeRecords::default();
+    for _ in 0..bytes.u64()? {
+        let (position, flux, [direction, medium], class, segments) = read_record(bytes)?;
+        let direction = PackedDirection::from_bits(direction);
+        volume.positions.push(position);
+        volume.photons.push(VolumePhoton { flux, direction, medium, class, segments });
+    }
+    Ok(PassPhotons { positions, photons, volume, ledger, emitted })
 }

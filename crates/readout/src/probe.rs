@@ -34,8 +34,9 @@ fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 
 /// True if a point lamp is so near that rays from it could carry more than a trifle of what a cell of the shape gets by its
 /// own points. Farther away the points alone are good, and the rare rays that met a cell would only add rare jumps.
 fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize, size: [u32; 2]) -> bool {
-    // Such rays know nothing of media.
-    if !world.scene.media.is_empty() {
+    let has_points = lamps.lamps.iter().any(|lamp| matches!(lamp.kind, LampKind::Point { .. }));
+    // Such rays know nothing of media; and without a point lamp the cells need not be looked at, which is done for each of them.
+    if !world.scene.media.is_empty() || !has_points {
         return false;
     }
     let cells = (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| [column, row]));

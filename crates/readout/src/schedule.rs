@@ -63,6 +63,8 @@ pub struct Schedule {
     samples: Share,
     /// Photons that a pass cannot do without.
     fewest_photons: u64,
+    /// Points per cell and pass unless asked otherwise.
+    usual_samples: u64,
 }
 
 /// A count divided over passes: a total to be met exactly, or the same in each pass.
@@ -76,10 +78,8 @@ impl Share {
     fn of_pass(self, pass: u64) -> u64 {
         match self {
             Share::Each(count) => count,
-            Share::Total { total, passes } => {
-                let up_to = |p: u64| (u128::from(total) * u128::from(p) / u128::from(passes)) as u64;
-                up_to(pass + 1) - up_to(pass)
-            }
+            // The first passes are the larger ones: those done so far are then shared as their own total would be.
+            Share::Total { total, passes } => total / passes + u64::from(pass < total % passes),
         }
     }
 }
@@ -120,6 +120,7 @@ impl Schedule {
             },
             samples: share(wanted.samples, samples_per_cell),
             fewest_photons: demands.fewest_photons,
+            usual_samples: samples_per_cell,
         }
     }
 
@@ -133,16 +134,46 @@ impl Schedule {
         self.samples.of_pass(pass)
     }
 
-    /// A pass smaller by a factor, whatever was asked for: a pilot.
-    pub fn pilot(&self, by: u64) -> Self {
-        let each = |share: Share, fewest: u64| match share.of_pass(0) {
-            0 => Share::Each(0),
-            count => Share::Each((count / by).max(fewest)),
+    /// A short pass, whatever was asked for, smaller by a factor than the usual one; and how many times as long a pass of
+    /// this schedule takes at most.
+    pub fn pilot(&self, by: u64) -> (Self, f64) {
+        let short = |share: Share, usual: u64, fewest: u64| match share.of_pass(0) {
+            0 => (Share::Each(0), 0.0),
+            count => {
+                let few = (count.min(usual) / by).max(fewest);
+                (Share::Each(few), count as f64 / few as f64)
+            }
         };
-        Self { photons: each(self.photons, self.fewest_photons), samples: each(self.samples, 1), ..*self }
+        let (photons, longer) = short(self.photons, PHOTONS_PER_PASS, self.fewest_photons);
+        let (samples, denser) = short(self.samples, self.usual_samples, 1);
+        (Self { photons, samples, ..*self }, longer.max(denser))
     }
 
-    /// The same with all counts per pass divided: a pilot, or passes short enough for a time limit.
+    /// Passes short enough for a time limit: counts that were asked for are spread over so many times more of them, those
+    /// of a run that only the clock or its error ends are divided. Where one count allows fewer passes than that, it ends
+    /// the run before the other is met.
+    pub fn shortened(&self, by: u64) -> Self {
+        let Some(passes) = self.ends.passes else { return self.divided(by) };
+        let room = |share: Share, fewest: u64| match share.of_pass(0) {
+            0 => u64::MAX,
+            count => count / fewest.max(1),
+        };
+        let more = by.min(room(self.photons, self.fewest_photons)).min(room(self.samples, 1)).max(1);
+        let spread = |share: Share, fewest: u64| match share {
+            Share::Total { total, passes } if more == by || total / passes < 2 * more * fewest.max(1) => {
+                Share::Total { total, passes: passes * more }
+            }
+            share => Share::Each((share.of_pass(0) / by).max(fewest.min(share.of_pass(0)))),
+        };
+        Self {
+            ends: Ends { passes: Some(passes * more), ..self.ends },
+            photons: spread(self.photons, self.fewest_photons),
+            samples: spread(self.samples, 1),
+            ..*self
+        }
+    }
+
+    /// The same passes with all counts that were not asked for divided.
     pub fn divided(&self, by: u64) -> Self {
         let smaller = |share: Share, fewest: u64| match share {
             Share::Each(count) if count > 0 => Share::Each((count / by).max(fewest)),
@@ -172,6 +203,36 @@ mod tests {
                     .all(|p| schedule.samples(p) > 0 && schedule.photons(p) <= LARGEST_PASS.max(photons / passes + 1))
             );
         }
+    }
+
+    #[test]
+    fn passes_done_are_shared_as_their_own_total_would_be() {
+        let of = |total: u64, passes: u64| {
+            let wanted = Wanted { photons: Some(total), passes: Some(passes), ..Wanted::default() };
+            Schedule::new(&wanted, 6, &DEMANDS)
+        };
+        let whole = of(1_000_003, 17);
+        for done in 1..17 {
+            let counts: Vec<u64> = (0..done).map(|pass| whole.photons(pass)).collect();
+            let again = of(counts.iter().sum(), done);
+            assert_eq!((0..done).map(|pass| again.photons(pass)).collect::<Vec<_>>(), counts);
+        }
+    }
+
+    #[test]
+    fn a_clock_cuts_passes_and_keeps_totals() {
+        let limit = Some(Duration::from_secs(2));
+        let wanted = Wanted { photons: Some(1_000_003), passes: Some(2), time_limit: limit, ..Wanted::default() };
+        let short = Schedule::new(&wanted, 6, &DEMANDS).shortened(100);
+        let passes = short.ends.passes.unwrap();
+        assert_eq!(passes, 200);
+        assert_eq!((0..passes).map(|pass| short.photons(pass)).sum::<u64>(), 1_000_003);
+        let few = Wanted { samples: Some(6), ..wanted };
+        let short = Schedule::new(&few, 6, &DEMANDS).shortened(100);
+        assert_eq!(short.ends.passes, Some(6), "no pass without a point");
+        assert_eq!((short.samples(5), short.photons(5)), (1, 5000), "the points end the run");
+        let (pilot, longer) = Schedule::new(&wanted, 6, &DEMANDS).pilot(64);
+        assert!(pilot.photons(0) <= PHOTONS_PER_PASS / 64 && longer >= 500_000.0 / 1024.0);
     }
 
     #[test]

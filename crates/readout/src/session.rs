@@ -31,7 +31,7 @@ const PASSES_BEFORE_GIVING_UP: u64 = 64;
 const LOOK_GROWTH: f64 = 1.1;
 /// A run that only its error could end stops here and says so.
 const MOST_PASSES: u64 = 100_000;
-/// Passes that a time limit should hold at least, and by how much the pilot that plans them is smaller than a pass.
+/// Passes that a time limit should hold at least, and by how much the pilot that plans them is smaller than a usual pass.
 const PASSES_IN_TIME: f64 = 20.0;
 const PILOT: u64 = 64;
 /// Photons that try whether light in a medium ends.
@@ -115,7 +115,7 @@ impl<const C: usize> Session<'_, C> {
     fn uses_maps(&self) -> bool {
         match self.settings.method {
             Method::Path | Method::Bins => false,
-            Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic,
+            Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic || self.needs.in_scattering,
             Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
                 self.settings.classes().direct || self.needs.indirect || self.needs.caustic
             }
@@ -232,11 +232,19 @@ impl<const C: usize> Session<'_, C> {
         let Some(limit) = schedule.ends.time_limit else {
             return Ok(*schedule);
         };
-        self.pass(&mut Run::new(cells.len()), cells, &schedule.pilot(PILOT), source)?;
-        let pass = start.elapsed().as_secs_f64() * PILOT as f64;
+        let (pilot, longer) = schedule.pilot(PILOT);
+        self.pass(&mut Run::new(cells.len()), cells, &pilot, source)?;
+        let pass = start.elapsed().as_secs_f64() * longer;
         let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64()).max(1e-3);
+        if schedule.ends.passes.is_some_and(|passes| pass * passes as f64 <= 0.5 * left) {
+            return Ok(*schedule);
+        }
         let by = (pass * PASSES_IN_TIME / left).ceil().clamp(1.0, 1e6);
-        Ok(schedule.divided(by as u64))
+        Ok(match source {
+            Source::Trace => schedule.shortened(by as u64),
+            // The passes of a saved map are what they are.
+            Source::Map(_) => schedule.divided(by as u64),
+        })
     }
 
     /// One pass: photons, maps, every cell.

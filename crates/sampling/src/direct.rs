@@ -35,7 +35,11 @@ impl<const C: usize> LightDraw<C> {
         if lamps.lamps.is_empty() {
             return None;
         }
-        let index = lamps.choose(xi[0]);
+        Self::of_lamp(world, lamps, lamps.choose(xi[0]), from, [xi[1], xi[2]])
+    }
+
+    /// Draws one point, from two numbers, of a lamp that was chosen with its probability.
+    pub fn of_lamp(world: &World, lamps: &Lamps<C>, index: usize, from: DVec3, xi: [f64; 2]) -> Option<Self> {
         let chosen = lamps.probability[index];
         match &lamps.lamps[index].kind {
             LampKind::Point { position, intensity, pattern } => {
@@ -63,22 +67,22 @@ impl<const C: usize> LightDraw<C> {
                 point_emission: 0.0,
             }),
             LampKind::Environment { environment, .. } => {
-                Self::from_infinity(world, lamps, Ray::new(from, environment.draw([xi[1], xi[2]])))
+                Self::from_infinity(world, lamps, Ray::new(from, environment.draw(xi)))
             }
             LampKind::Portal { primitive, .. } => {
                 let draw = AreaDraw::new(world, *primitive, from);
-                let position = draw.position([xi[1], xi[2]]);
+                let position = draw.position(xi);
                 if draw.pdf_solid_angle(position) == 0.0 {
                     return None;
                 }
                 Self::from_infinity(world, lamps, Ray::new(from, (position - from).normalize()))
             }
             LampKind::Area { primitive, radiance, .. } => {
-                Self::on_surface(world, *primitive, *radiance, chosen, from, [xi[1], xi[2]])
+                Self::on_surface(world, *primitive, *radiance, chosen, from, xi)
             }
             LampKind::Faces { shape, radiance, .. } => {
-                let (primitive, rest) = world.primitive_by_area(*shape, xi[1]);
-                Self::on_surface(world, primitive, *radiance, chosen, from, [rest, xi[2]])
+                let (primitive, rest) = world.primitive_by_area(*shape, xi[0]);
+                Self::on_surface(world, primitive, *radiance, chosen, from, [rest, xi[1]])
             }
         }
     }

@@ -118,8 +118,15 @@ mod tests {
             medium: None,
         };
         let (shapes, sensors, notes) = (vec![], vec![], vec![]);
-        let world =
-            World::new(Scene { shapes, emitters: vec![emitter], sensors, media: Vec::new(), max_depth: None, notes });
+        let world = World::new(Scene {
+            shapes,
+            emitters: vec![emitter],
+            sensors,
+            media: Vec::new(),
+            max_depth: None,
+            hides_lamps: false,
+            notes,
+        });
         let lamps = Lamps::new(&world, &Palette::Channels);
         (world, lamps)
     }

@@ -36,6 +36,29 @@ impl<const C: usize> Volume<C> {
         self.sigma_t.map(|sigma| if sigma == 0.0 { 1.0 } else { (-sigma * distance).exp() })
     }
 
+    /// True if any light is scattered, not only absorbed.
+    pub fn scatters(&self) -> bool {
+        !(self.sigma_t * self.albedo).is_zero()
+    }
+
+    /// Metres beyond which next to nothing (2e-9) of any light that is scattered passes.
+    pub fn depth(&self) -> f64 {
+        let least = self.sigma_t.0.into_iter().filter(|&sigma| sigma > 0.0).fold(f64::INFINITY, f64::min);
+        20.0 / least
+    }
+
+    /// Density per metre with which [`Volume::fly`] collides at a distance, where nothing is nearer.
+    pub fn flight_pdf(&self, carried: Colour<C>, distance: f64) -> f64 {
+        let total: f64 = carried.0.into_iter().sum();
+        (self.transmittance(distance) * self.sigma_t * carried).0.into_iter().sum::<f64>() / total
+    }
+
+    /// Share of flights drawn by [`Volume::fly`] that do not collide up to a distance.
+    pub fn share_that_flies(&self, carried: Colour<C>, distance: f64) -> f64 {
+        let total: f64 = carried.0.into_iter().sum();
+        (self.transmittance(distance) * carried).0.into_iter().sum::<f64>() / total
+    }
+
     /// Draws how far light flies of which each channel carries some: by the extinction of a channel that is drawn by what it
     /// carries, weighted against those by which the others would have drawn the same (the balance heuristic).
     pub fn fly(&self, carried: Colour<C>, reach: f64, stream: &mut Stream) -> Flight<C> {

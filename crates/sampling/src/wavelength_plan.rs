@@ -116,6 +116,7 @@ mod tests {
             emitters: vec![lamp],
             sensors: vec![],
             max_depth: None,
+            hides_lamps: false,
             notes: vec![],
             media: vec![],
         };

@@ -20,6 +20,9 @@ pub struct Scene {
     pub sensors: Vec<Sensor>,
     /// Longest light path in segments, from the file's integrator (Mitsuba's `max_depth`); `None` is unlimited.
     pub max_depth: Option<u32>,
+    /// True if cameras see no lamp directly (Mitsuba `hide_emitters`): they look through shapes that shine, and before the
+    /// environment all is black.
+    pub hides_lamps: bool,
     /// Things the reader superseded, to be said once on standard error.
     pub notes: Vec<String>,
 }

@@ -118,7 +118,7 @@ pub struct SkyMap {
     pub height: usize,
     /// Row by row.
     pub pixels: Vec<[f32; 3]>,
-    /// A rotation from the picture's own axes, in which the left edge looks along -z and columns turn towards +x.
+    /// A rotation, perhaps with a mirror, from the picture's own axes, in which the left edge looks along -z and columns turn towards +x.
     pub to_world: DMat3,
 }
 

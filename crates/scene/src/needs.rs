@@ -24,6 +24,8 @@ pub struct Needs {
     pub caustic: bool,
     /// Light can reach a surface after a diffuse interaction, so a surface map is kept.
     pub indirect: bool,
+    /// A medium can scatter light into a ray, so a volume map is kept.
+    pub in_scattering: bool,
     /// What is modelled, with reasons.
     pub list: Vec<Need>,
     /// What is left out, with reasons.
@@ -36,11 +38,13 @@ impl Needs {
         let channels = scene.channels();
         let specular = first_specular(scene);
         let indirect = indirect_reason(scene);
+        let scattering = scene.media.iter().find(|medium| medium.scatters());
         let mut needs = Self {
             channels,
             direct: scene.has_light(),
             caustic: scene.has_light() && specular.is_some(),
             indirect: scene.has_light() && indirect.is_some(),
+            in_scattering: scene.has_light() && scattering.is_some(),
             list: Vec::new(),
             left_out: Vec::new(),
         };
@@ -70,6 +74,11 @@ impl Needs {
         match scene.media.first() {
             Some(medium) => needs.model("free paths", &format!("`{}` lets light pass only in part", medium.id)),
             None => needs.leave_out("free paths", "the scene has no medium"),
+        }
+        match scattering.filter(|_| needs.in_scattering) {
+            Some(medium) => needs
+                .model("volume map", &format!("`{}` scatters light, also into rays that look through it", medium.id)),
+            None => needs.leave_out("volume map", "no medium scatters light"),
         }
         needs
     }

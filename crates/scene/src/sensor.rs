@@ -33,7 +33,8 @@ pub struct Camera {
     pub tan_half_width: f64,
     /// Half the field of view along the image's height, as a tangent.
     pub tan_half_height: f64,
-    /// Shift of the image's centre in parts of the film's width and height (Mitsuba `principal_point_offset_x|y`).
+    /// What is added to a place on the film, right and down in parts of its width and height, before it is looked through
+    /// (Mitsuba `principal_point_offset_x|y`): what is seen moves to the left and up.
     pub principal_point_offset: [f64; 2],
     /// Nothing nearer than this along the optical axis is seen, in metres.
     pub near_clip: f64,

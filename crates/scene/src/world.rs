@@ -256,6 +256,15 @@ impl World {
         })
     }
 
+    /// True if a surface lies within a closed ball, anything but one that leaves light and media as they are.
+    pub fn is_near_surface(&self, position: DVec3, radius: f64) -> bool {
+        self.accelerator.any_near(position, radius, |index| {
+            let shape = self.shape_of(index);
+            (shape.bsdf != Bsdf::Null || shape.boundary.is_some())
+                && self.primitives[index as usize].surface.distance(position) <= radius
+        })
+    }
+
     /// True if a face near a point belongs to the same mesh, lies nearly in the point's plane, and does not end within the
     /// ball.
     fn goes_on_as(&self, point: &SurfacePoint, index: u32, radius: f64) -> bool {

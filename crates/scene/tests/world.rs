@@ -44,7 +44,15 @@ fn shape(geometry: Geometry, flip_normals: bool) -> Shape {
 }
 
 fn world(shapes: Vec<Shape>) -> World {
-    World::new(Scene { shapes, emitters: vec![], sensors: vec![], media: vec![], max_depth: None, notes: vec![] })
+    World::new(Scene {
+        shapes,
+        emitters: vec![],
+        sensors: vec![],
+        media: vec![],
+        max_depth: None,
+        hides_lamps: false,
+        notes: vec![],
+    })
 }
 
 fn random_shapes(count: usize, scale: f64, numbers: &mut Numbers) -> Vec<Shape> {

@@ -1,7 +1,7 @@
 //! Follows photons until they are absorbed and keeps the books.
 //!
 //! [`trace`] sends every photon of an [`photonlab_sampling::EmissionPlan`] through a world and returns what it left at
-//! diffuse surfaces, in one array whose order depends on the photons' numbers alone, and the [`Ledger`].
+//! diffuse surfaces and in media, in arrays whose order depends on the photons' numbers alone, and the [`Ledger`].
 #![forbid(unsafe_code)]
 
 mod counter;
@@ -12,7 +12,7 @@ pub use counter::{Counted, Counter, count};
 pub use ledger::{Book, Ledger, SurfaceBook};
 pub use path::{Classes, Limits, TraceError};
 
-use photonlab_photometry::Photon;
+use photonlab_photometry::{Photon, VolumePhoton};
 use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::World;
 use rayon::prelude::*;
@@ -29,14 +29,30 @@ pub struct Traced<const C: usize> {
     pub positions: Vec<[f32; 3]>,
     /// The records, in the order of their photons' numbers and along each path.
     pub photons: Vec<Photon<C>>,
+    /// The same where photons met the matter of media that scatter.
+    pub volume: VolumeRecords<C>,
     /// Where all flux went.
     pub ledger: Ledger<C>,
 }
 
 impl<const C: usize> Traced<C> {
     fn empty(world: &World) -> Self {
-        Self { positions: Vec::new(), photons: Vec::new(), ledger: Ledger::new(world) }
+        Self {
+            positions: Vec::new(),
+            photons: Vec::new(),
+            volume: VolumeRecords::default(),
+            ledger: Ledger::new(world),
+        }
     }
+}
+
+/// What photons left in media; empty in a scene without one that scatters.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VolumeRecords<const C: usize> {
+    /// Where each collided, metres from the scene's middle ([`World::stored`]).
+    pub positions: Vec<[f32; 3]>,
+    /// The records, in the order of their photons' numbers and along each path.
+    pub photons: Vec<VolumePhoton<C>>,
 }
 
 /// What to trace.
@@ -71,6 +87,8 @@ pub fn trace<const C: usize>(
         let part = part?;
         whole.positions.extend(part.positions);
         whole.photons.extend(part.photons);
+        whole.volume.positions.extend(part.volume.positions);
+        whole.volume.photons.extend(part.volume.photons);
         whole.ledger.add(&part.ledger);
     }
     Ok(whole)

@@ -1,8 +1,8 @@
 //! One photon's path.
 
-use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
+use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon, VolumePhoton};
 use photonlab_sampling::{
-    EmissionPlan, Flight, Followed, Interaction, Matte, Optics, Purpose, Stream, Volume, goes_through, scatter,
+    EmissionPlan, Flight, Followed, Interaction, Matte, Optics, Purpose, Stream, goes_through, scatter,
 };
 use photonlab_scene::{Hit, Ray, World};
 
@@ -149,7 +149,7 @@ impl<const C: usize> Walk<'_, C> {
             let Flight { collision, factor } = self.optics.volume(medium).fly(self.flux, reach, stream);
             self.reweight(factor, out);
             if let Some(distance) = collision {
-                return self.collide(self.optics.volume(medium), distance, stream, out);
+                return self.collide(medium, distance, job, stream, out);
             }
         }
         let Some(hit) = hit else {
@@ -313,8 +313,12 @@ impl<const C: usize> Walk<'_, C> {
     }
 
     /// Meets the matter of a medium, which absorbs a part and scatters the rest.
-    fn collide(&mut self, volume: &Volume<C>, distance: f64, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+    fn collide(&mut self, medium: u32, distance: f64, job: &Job, stream: &mut Stream, out: &mut Traced<C>) -> Fate {
+        let volume = self.optics.volume(medium);
         self.segments += 1;
+        if job.keep.has(self.class) && volume.scatters() {
+            self.store_in_medium(medium, distance, out);
+        }
         self.class = PathClass::Indirect;
         self.specular_run = 0;
         self.lossless_run = if volume.albedo == Colour::ONE { self.lossless_run + 1 } else { 0 };
@@ -328,6 +332,17 @@ impl<const C: usize> Walk<'_, C> {
         let direction = scatter(volume.phase, self.ray.direction, stream);
         (self.ray, self.from) = (Ray::new(self.ray.at(distance), direction), None);
         Fate::GoesOn
+    }
+
+    fn store_in_medium(&self, medium: u32, distance: f64, out: &mut Traced<C>) {
+        out.volume.positions.push(self.world.stored(self.ray.at(distance)));
+        out.volume.photons.push(VolumePhoton {
+            flux: self.flux.to_f32(),
+            direction: PackedDirection::pack(self.ray.direction.to_array()),
+            medium,
+            class: self.class,
+            segments: self.segments.min(u32::from(u16::MAX)) as u16,
+        });
     }
 
     fn leave(&mut self, hit: &Hit, ray: Ray, out: &mut Traced<C>) {

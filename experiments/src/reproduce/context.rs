@@ -2,7 +2,7 @@
 
 use std::{path::Path, path::PathBuf, process::Command, time::Instant};
 
-use photonlab_measure::{Budget, Comparison, FigureData, ImageEntry, Record, Row, Run, Verdict};
+use photonlab_measure::{Budget, Comparison, FigureData, Group, ImageEntry, Record, Row, Run, Verdict};
 use photonlab_paper_figures::interval_text;
 use serde::de::DeserializeOwned;
 
@@ -13,6 +13,8 @@ use crate::system;
 pub(super) struct Context {
     pub(super) claim: Claim,
     pub(super) budget: Budget,
+    /// The catalogue's entries to be read; none means all.
+    pub(super) entries: Vec<String>,
     definition: Definition,
     out: PathBuf,
     start: Instant,
@@ -23,15 +25,17 @@ pub(super) struct Context {
 pub(super) struct Findings {
     pub(super) seeds: Vec<u64>,
     pub(super) comparisons: Vec<Comparison>,
+    pub(super) groups: Vec<Group>,
     pub(super) rows: Vec<Row>,
     pub(super) figures: Vec<FigureData>,
     pub(super) images: Vec<ImageEntry>,
 }
 
 impl Context {
-    pub(super) fn new(claim: Claim, budget: Budget, out: &Path) -> anyhow::Result<Self> {
+    pub(super) fn new(claim: Claim, budget: Budget, entries: &[String], out: &Path) -> anyhow::Result<Self> {
         let definition = Definition::parse(claim.id(), claim.definition())?;
-        Ok(Self { claim, budget, definition, out: out.into(), start: Instant::now() })
+        let entries = entries.to_vec();
+        Ok(Self { claim, budget, entries, definition, out: out.into(), start: Instant::now() })
     }
 
     /// The claim's own parameters at this budget.
@@ -42,7 +46,7 @@ impl Context {
     /// A folder of this run for files that are not part of the record.
     pub(super) fn folder(&self, name: &str) -> anyhow::Result<PathBuf> {
         let path = self.out.join(name);
-        std::fs::create_dir_all(&path)?;
+        crate::interrupt::make_folder(&path)?;
         Ok(path)
     }
 
@@ -50,6 +54,13 @@ impl Context {
     pub(super) fn image(&self, name: &str) -> (PathBuf, String) {
         let relative = super::image_path(self.claim, name);
         (self.out.join("records").join(&relative), relative.to_string_lossy().into_owned())
+    }
+
+    /// The command that runs this again.
+    fn command(&self) -> String {
+        let entries =
+            if self.entries.is_empty() { String::new() } else { format!(" --entries {}", self.entries.join(",")) };
+        format!("photonlab reproduce {} --budget {}{entries}", self.claim.id(), self.budget.name())
     }
 
     /// The record of what was found.
@@ -71,7 +82,7 @@ impl Context {
             run: Run {
                 id: format!("{}-{}-{date}-{short}", self.claim.id(), self.budget.name()),
                 commit,
-                command: format!("photonlab reproduce {} --budget {}", self.claim.id(), self.budget.name()),
+                command: self.command(),
                 processor: system::processor(),
                 threads: system::threads(),
                 date,
@@ -79,6 +90,7 @@ impl Context {
             },
             seeds: found.seeds,
             rows: found.rows,
+            groups: found.groups,
             figures: found.figures,
             images: found.images,
             reason: with_what_failed(reason.into(), verdict, &found.comparisons),

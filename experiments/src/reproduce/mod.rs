@@ -1,5 +1,9 @@
 //! `photonlab reproduce`: claims to records, figures and a report.
 
+mod case_judgement;
+mod case_reading;
+mod caustic_flux;
+mod caustic_profile;
 mod claims;
 mod context;
 mod cpu_clock;
@@ -16,8 +20,10 @@ mod lab;
 mod photon_set;
 mod placed;
 mod ray_curves;
+mod receivers;
 mod report;
 mod search;
+mod slab;
 mod split_charts;
 mod split_rules;
 mod split_times;
@@ -46,9 +52,10 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     system::start_threads(arguments.threads)?;
     let budget = arguments.budget.budget();
     let claims = chosen(&arguments.claims)?;
+    check_entries(&claims, &arguments.entries)?;
     let out = arguments.out.clone().unwrap_or_else(|| Path::new("target/reproduce").join(budget.name()));
     for folder in ["records", "records/images", "figures"] {
-        std::fs::create_dir_all(out.join(folder)).map_err(|error| {
+        interrupt::make_folder(&out.join(folder)).map_err(|error| {
             Failure::usage(format!(
                 "--out {}: cannot make {folder} there: {error}; choose a writable folder",
                 out.display()
@@ -58,7 +65,7 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     let mut finished = Vec::new();
     for (number, &claim) in claims.iter().enumerate() {
         say!("[{}/{}] {}", number + 1, claims.len(), claim.id());
-        let record = run(claim, budget, &out)?;
+        let record = run(claim, budget, &arguments.entries, &out)?;
         say!("       {}: {}", verdict_word(&record), record.reason);
         finished.push(record);
         // The page is brought up to date after each claim, so that an interrupt leaves a report of what is finished.
@@ -68,8 +75,8 @@ pub(crate) fn reproduce(arguments: &command::Reproduce) -> Result<(), Failure> {
     Ok(())
 }
 
-fn run(claim: Claim, budget: Budget, out: &Path) -> Result<Record, Failure> {
-    let context = Context::new(claim, budget, out)?;
+fn run(claim: Claim, budget: Budget, entries: &[String], out: &Path) -> Result<Record, Failure> {
+    let context = Context::new(claim, budget, entries, out)?;
     let record = claim.run(&context)?;
     let _guard = interrupt::writing();
     record.save(&out.join("records").join(format!("{}.json", claim.id()))).map_err(anyhow::Error::from)?;
@@ -90,6 +97,23 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
             .ok_or_else(|| Failure::usage(format!("no claim is called `{word}`; claims built: {}", known()))),
     };
     words.iter().map(find).collect()
+}
+
+/// Entries are the catalogue's alone, and it must have them.
+fn check_entries(claims: &[Claim], entries: &[String]) -> Result<(), Failure> {
+    if !entries.is_empty() && claims != [Claim::Catalogue] {
+        return Err(Failure::usage("--entries is used by the claim catalogue alone; leave it out, or name that claim"));
+    }
+    let known: Vec<&str> = photonlab_reference::catalogue::ALL.iter().map(|entry| entry.id).collect();
+    match entries.iter().find(|entry| !known.contains(&entry.as_str())) {
+        Some(unknown) => {
+            let known = known.join(", ");
+            Err(Failure::usage(format!(
+                "--entries: the catalogue has no entry `{unknown}` with a scene; choose of {known}"
+            )))
+        }
+        None => Ok(()),
+    }
 }
 
 fn verdict_word(record: &Record) -> String {

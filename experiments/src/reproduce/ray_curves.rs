@@ -76,6 +76,21 @@ impl<const C: usize> Bench<C> {
         Ok(curves)
     }
 
+    /// A strategy at rising counts of photons, each with as many rays or paths per cell.
+    pub(super) fn curve(
+        &self,
+        strategy: Strategy,
+        counts: &[(Option<u64>, u64)],
+        seeds: &std::ops::Range<u64>,
+        found: &mut Findings,
+    ) -> anyhow::Result<Curve> {
+        let mut points = Vec::new();
+        for &(photons, rays) in counts {
+            points.extend(self.points(strategy, photons, &[rays], seeds, found)?);
+        }
+        Ok(Curve { title: strategy.title.into(), points })
+    }
+
     fn points(
         &self,
         strategy: Strategy,
@@ -132,11 +147,15 @@ pub(super) fn paths_per_ray(law: &LogLogFit, gather: &Measured) -> Option<Interv
     Some(Interval { value: paths(rms.value)?, low: paths(rms.high)?, high: paths(rms.low)?, confidence: CONFIDENCE })
 }
 
-/// Time of final gather, photons included, over that of path tracing at the error of the last curve's last point.
-pub(super) fn time_ratio(curves: &[Curve]) -> Option<f64> {
+/// Time of the last curve's last point, photons included, over that of path tracing (the first curve) at its error; the interval
+/// is that of the error, not of the line through path tracing's points.
+pub(super) fn time_ratio(curves: &[Curve]) -> Option<Interval> {
     let law = law(&curves[0], Measured::seconds).ok()?;
     let last = curves.last()?.points.last()?;
-    Some(last.seconds() / law.solve(last.rms()?.value, CONFIDENCE)?.value)
+    let rms = last.rms()?;
+    // The line's own interval is not used: one that is narrow enough at any confidence has a crossing.
+    let ratio = |error: f64| law.solve(error, 0.5).map(|seconds| last.seconds() / seconds.value);
+    Some(Interval { value: ratio(rms.value)?, low: ratio(rms.low)?, high: ratio(rms.high)?, confidence: CONFIDENCE })
 }
 
 /// The curves over what `place` says.

@@ -26,7 +26,7 @@ fn along(a: Vector, t: f64, b: Vector) -> Vector {
 
 /// Follows a ray through the ball (centre at the origin, radius 1) with random choice between reflection and refraction;
 /// returns where and how it leaves, or the ray itself if it misses.
-fn through_ball(index: f64, mut p: Vector, mut d: Vector, random: &mut Random) -> (Vector, Vector) {
+pub(super) fn through_ball(index: f64, mut p: Vector, mut d: Vector, random: &mut Random) -> (Vector, Vector) {
     let b = dot(p, d);
     let discriminant = b * b - dot(p, p) + 1.0;
     if discriminant <= 0.0 || b > 0.0 {

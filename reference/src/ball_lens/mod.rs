@@ -10,16 +10,20 @@
 //!
 //! The floor's own reflection is left out and bounded by [`BallLens::floor_return_bound`].
 
+mod blur;
 mod encircled;
 mod floor_return;
 mod flux;
 mod ray_map;
+mod under_lamp;
 
-use crate::mitsuba;
+use crate::catalogue::Reads;
+use crate::mitsuba::{self, Place};
 use crate::out_of_range::{OutOfRange, require, require_positive};
 
 pub use encircled::cases;
 pub use flux::Fold;
+pub use under_lamp::DiscLamp;
 
 /// A ball of glass above the floor z = 0, its centre on the z axis, in light of irradiance 1 along -z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +61,19 @@ impl BallLens {
             &(mitsuba::floor_camera(below, half_width, cells)
                 + &mitsuba::parallel_light([0.0, 0.0, -1.0], &[1.0])
                 + &mitsuba::rectangle("floor", "", &floor)
+                + &mitsuba::sphere("ball", centre, self.radius, false, &glass)),
+        )
+    }
+
+    /// The scene with a black floor `[-half_width, half_width]^2` whose meter (`floor`) reads the irradiance of `cells` by `cells`
+    /// equal cells, in parallel light or under a lamp.
+    pub fn metered_xml(&self, lamp: Option<DiscLamp>, half_width: f64, cells: usize) -> String {
+        let light = lamp.map_or(mitsuba::parallel_light([0.0, 0.0, -1.0], &[1.0]), |lamp| lamp.xml());
+        let on_floor = mitsuba::diffuse(&[0.0]) + &mitsuba::film_meter(Reads::Irradiance, "floor", cells);
+        let (centre, glass) = ([0.0, 0.0, self.height], mitsuba::dielectric(self.index));
+        mitsuba::scene(
+            &(light
+                + &mitsuba::flat("rectangle", "cells", Place::floor([0.0; 3], [half_width; 2]), &on_floor)
                 + &mitsuba::sphere("ball", centre, self.radius, false, &glass)),
         )
     }

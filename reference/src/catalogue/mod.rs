@@ -12,7 +12,7 @@ use crate::{
 
 pub use case::{Case, Expected, Reads};
 
-pub(crate) use case::Draft;
+pub(crate) use case::{Draft, meter};
 
 /// An entry of the catalogue.
 #[derive(Clone, Copy, Debug)]

@@ -49,8 +49,8 @@ impl RoofOpening {
     }
 
     /// A black room of half-width `half` under a sky that would give 10 000 lx on open ground, with square meters of
-    /// half-edge 0.1 m at these points.
-    fn case(&self, sky: Sky, half: f64, at: &[[f64; 2]]) -> Case {
+    /// half-edge 0.1 m at these points; a portal in the opening if its light is `aimed`, which changes no answer.
+    fn case(&self, sky: Sky, half: f64, at: &[[f64; 2]], aimed: bool) -> Case {
         let scale = 10_000.0 / sky.horizontal_illuminance();
         let mut draft = Draft::with(sky_xml(sky, scale));
         // The floor proper lies a little below the meters.
@@ -61,6 +61,11 @@ impl RoofOpening {
         if let Some(pane) = self.glazing {
             let place = Place::floor([0.0, 0.0, self.height], self.size.map(|s| 0.5 * s));
             draft.add(&mitsuba::flat("rectangle", "pane", place, &mitsuba::thin_dielectric(pane.index())));
+        }
+        if aimed {
+            // Above the pane, which would keep the light from it, and so near that nothing comes in between.
+            let place = Place::floor([0.0, 0.0, self.height + ABOVE], self.size.map(|s| 0.5 * s)).turned();
+            draft.add(&mitsuba::flat("rectangle", "portal", place, mitsuba::PORTAL));
         }
         for &[x, y] in at {
             let place = Place::floor([x, y, 0.0], [0.1; 2]);
@@ -94,13 +99,26 @@ fn sky_xml(sky: Sky, zenith: f64) -> String {
     }
 }
 
-/// The catalogue's I4: 1 by 1 m, 3 m above the floor of a room 4 m wide, three skies; then glazed with index 1.5.
+/// Height of the portal above the opening (m).
+const ABOVE: f64 = 1e-6;
+
+/// The catalogue's I4, its sky aimed through a portal.
 pub fn cases() -> Vec<Case> {
+    cases_with(true)
+}
+
+/// The same without portals.
+pub fn cases_without_portals() -> Vec<Case> {
+    cases_with(false)
+}
+
+/// The catalogue's I4: 1 by 1 m, 3 m above the floor of a room 4 m wide, three skies; then glazed with index 1.5.
+fn cases_with(aimed: bool) -> Vec<Case> {
     let at = [[0.0, 0.0], [0.5, 0.5], [1.0, 0.0], [1.75, 1.75]];
     let skies = [Sky::Uniform, Sky::Overcast, Sky::CieType1];
     let open = RoofOpening { size: [1.0, 1.0], height: 3.0, glazing: None };
     let glazed = RoofOpening { glazing: Pane::new(1.5).ok(), ..open };
-    [open, glazed].iter().flat_map(|opening| skies.map(|sky| opening.case(sky, 2.0, &at))).collect()
+    [open, glazed].iter().flat_map(|opening| skies.map(|sky| opening.case(sky, 2.0, &at, aimed))).collect()
 }
 
 #[cfg(test)]

@@ -6,6 +6,8 @@ mod place;
 pub(crate) use fog::{Medium, fog_ball, fog_block, point_lamp_in_fog, radiance_meter_in_fog};
 pub(crate) use place::{Place, flat};
 
+use crate::catalogue::{Reads, meter};
+
 /// Channel values as Mitsuba reads them: one grey value or three separated by commas.
 pub(crate) fn channels(values: &[f64]) -> String {
     let words: Vec<String> = values.iter().map(f64::to_string).collect();
@@ -99,6 +101,9 @@ pub(crate) fn sky(general: Option<u8>, zenith: f64) -> String {
     format!("  <emitter type=\"sky\">{law}<rgb name=\"radiance\" value=\"{zenith}\"/></emitter>\n")
 }
 
+/// Aims the environment's light through the rectangle it is put on, along its normal (an extension).
+pub(crate) const PORTAL: &str = "<emitter type=\"portal\"/>";
+
 /// Turns the shape it is put on into a lamp.
 pub(crate) fn area_lamp(radiance: &[f64]) -> String {
     format!("<emitter type=\"area\"><rgb name=\"radiance\" value=\"{}\"/></emitter>", channels(radiance))
@@ -182,6 +187,11 @@ pub(crate) fn irradiance_meter(id: &str) -> String {
 /// A meter that reads the whole flux on the shape it is put on.
 pub(crate) fn flux_meter(id: &str) -> String {
     format!("<sensor type=\"fluxmeter\" id=\"{id}\">{}</sensor>", film(1, 4096))
+}
+
+/// A meter of irradiance or flux in `size` by `size` equal cells of the shape it is put on.
+pub(crate) fn film_meter(reads: Reads, id: &str, size: usize) -> String {
+    meter(reads, id).replace(&film(1, 4096), &film(size, 4096))
 }
 
 /// A camera on the z axis looking down at the floor's cells: `size` by `size` over `[-half_width, half_width]^2`, +y up.

@@ -75,5 +75,5 @@ fn run_avx512<T: Task>(task: T) -> T::Output {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,bmi1,bmi2,popcnt,lzcnt")]
 fn run_avx2<T: Task>(task: T) -> T::Output {
-    task.run::<Portable>()
+    task.run::<super::avx2::Avx2>()
 }

@@ -4,6 +4,8 @@
 //! and none is fused.
 
 #[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
 mod avx512;
 mod instructions;
 mod portable;

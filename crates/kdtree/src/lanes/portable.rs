@@ -4,7 +4,7 @@ use super::Lanes;
 use crate::block::Block;
 use crate::node::Node;
 
-/// No instruction set assumed; compiled for AVX2 it uses that.
+/// No instruction set assumed.
 pub(crate) struct Portable;
 
 impl Lanes for Portable {

@@ -43,7 +43,7 @@ fn flatten(mut points: Vec<[f32; 3]>, axes: usize) -> Vec<[f32; 3]> {
     points
 }
 
-fn radius() -> impl Strategy<Value = f32> {
+pub(crate) fn radius() -> impl Strategy<Value = f32> {
     prop_oneof![
         Just(0.0),
         Just(f32::INFINITY),
@@ -58,7 +58,7 @@ fn radius() -> impl Strategy<Value = f32> {
 }
 
 /// Points of one kind and dimension, with queries among them and anywhere.
-fn case() -> impl Strategy<Value = (Vec<[f32; 3]>, Vec<[f32; 3]>)> {
+pub(crate) fn case() -> impl Strategy<Value = (Vec<[f32; 3]>, Vec<[f32; 3]>)> {
     (kind(), 0usize..4).prop_flat_map(|(kind, axes)| {
         let points = prop::collection::vec(kind.point(), 0..200).prop_map(move |p| flatten(p, axes));
         let queries = prop::collection::vec(kind.point(), 2);

@@ -5,4 +5,5 @@ mod brute_force;
 mod doors;
 mod linear;
 mod obvious;
+mod segment;
 mod threads;

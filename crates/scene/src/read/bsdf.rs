@@ -8,7 +8,6 @@ use super::dielectric::{dielectric, plastic, thin};
 use super::element::Element;
 use super::error::SceneError;
 use super::metal::conductor;
-use super::names::{nearest_first, quote};
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -20,7 +19,12 @@ pub(super) const TAGS: [&str; 2] = ["bsdf", "ref"];
 /// Reads a `bsdf`, or finds the one that a `ref` names.
 pub(super) fn bsdf<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<Bsdf, SceneError> {
     if element.tag.name == "ref" {
-        return reference(element, builder);
+        return builder.follow(element, &["bsdf"], bsdf);
+    }
+    // A `ref` before it may have read it.
+    let id = element.attribute("id");
+    if let Some(known) = id.and_then(|id| builder.bsdfs.get(id)) {
+        return Ok(known.clone());
     }
     let object = Object::open(element)?;
     let bsdf = match object.plugin {
@@ -37,28 +41,10 @@ pub(super) fn bsdf<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resul
         "twosided" => twosided(object, builder),
         _ => Err(plugins::refuse(&object)),
     }?;
-    if let Some(id) = element.attribute("id") {
+    if let Some(id) = id {
         builder.bsdfs.insert(id, bsdf.clone());
     }
     Ok(bsdf)
-}
-
-fn reference(element: &Element, builder: &Builder) -> Result<Bsdf, SceneError> {
-    let id = element.required("id");
-    if let Some(bsdf) = builder.bsdfs.get(id) {
-        return Ok(bsdf.clone());
-    }
-    let name = quote(id);
-    Err(match builder.ids.get(id) {
-        Some((place, "bsdf")) => {
-            element.error(format!("{name} is defined only later, at {place}"), "move it above the first ref to it")
-        }
-        Some((place, tag)) => element.error(format!("{name} is the {tag} at {place}, not a bsdf"), "refer to a bsdf"),
-        None => {
-            let known = nearest_first(id, builder.bsdfs.keys().copied());
-            element.error(format!("no bsdf has the id {name}"), format!("bsdfs defined so far: {known}"))
-        }
-    })
 }
 
 fn diffuse(mut object: Object) -> Result<Bsdf, SceneError> {
@@ -86,14 +72,25 @@ fn null(object: Object) -> Result<Bsdf, SceneError> {
 }
 
 fn mask<'e>(mut object: Object<'e>, builder: &mut Builder<'e>) -> Result<Bsdf, SceneError> {
-    let opacity = object.float("opacity", Range::SHARE)?.unwrap_or(0.5);
+    let opacity = opacity(&mut object)?;
     let child = object.single(&TAGS)?;
     let element = object.element;
     object.close(&[])?;
     let child = child.ok_or_else(|| element.error("mask holds no bsdf", "put one into it"))?;
-    match bsdf(child, builder)? {
-        Bsdf::Mask { .. } => Err(child.error("a mask inside a mask", "multiply their opacities and keep one")),
-        surface => Ok(Bsdf::Mask { opacity, surface: Box::new(surface) }),
+    Ok(match bsdf(child, builder)? {
+        Bsdf::Mask { opacity: inner, surface } => Bsdf::Mask { opacity: opacity * inner, surface },
+        Bsdf::Null => Bsdf::Null,
+        surface => Bsdf::Mask { opacity, surface: Box::new(surface) },
+    })
+}
+
+/// A share that is the same for all colours.
+fn opacity(object: &mut Object) -> Result<f64, SceneError> {
+    match object.colour("opacity", Range::SHARE)? {
+        None => Ok(0.5),
+        Some(Spectrum::Uniform(share)) => Ok(share),
+        Some(Spectrum::Rgb([red, green, blue])) if red == green && green == blue => Ok(red),
+        Some(_) => Err(object.element.error("an opacity that differs by colour", "give one number")),
     }
 }
 

@@ -2,9 +2,10 @@
 
 use glam::{DAffine3, DMat3};
 
-use crate::{Camera, Film, Lens};
+use crate::{Camera, Lens};
 
 use super::error::{Fault, SceneError};
+use super::film::Window;
 use super::names::quote;
 use super::number::{Range, float};
 use super::object::Object;
@@ -16,10 +17,10 @@ const DIAGONAL: f64 = 43.266_615_305_567_87;
 const TOLERANCE: f64 = 1e-3;
 
 /// Reads what is the camera's own of a `perspective` or `thinlens` sensor.
-pub(super) fn camera(object: &mut Object, film: Film, builder: &mut Builder) -> Result<Camera, SceneError> {
+pub(super) fn camera(object: &mut Object, window: Window, builder: &mut Builder) -> Result<Camera, SceneError> {
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
     check_rigid(object, &to_world)?;
-    let aspect = f64::from(film.width) / f64::from(film.height);
+    let aspect = f64::from(window.whole.width) / f64::from(window.whole.height);
     let tan_half_width = field_of_view(object, aspect)?;
     let near_clip = object.float("near_clip", Range::LENGTH)?.unwrap_or(1e-2);
     let far_clip = object.float("far_clip", Range::LENGTH)?.unwrap_or(1e4);
@@ -45,7 +46,24 @@ pub(super) fn camera(object: &mut Object, film: Film, builder: &mut Builder) -> 
         }
         None
     };
-    Ok(Camera { to_world, tan_half_width, tan_half_height, principal_point_offset, near_clip, far_clip, lens })
+    let whole = Camera { to_world, tan_half_width, tan_half_height, principal_point_offset, near_clip, far_clip, lens };
+    Ok(cropped(whole, &window))
+}
+
+/// The camera whose whole film is the part of another's.
+fn cropped(camera: Camera, window: &Window) -> Camera {
+    let [whole, part] = [window.whole, window.part].map(|film| [film.width, film.height].map(f64::from));
+    let offset = window.offset.map(f64::from);
+    let shift = |axis: usize| {
+        let from_middle = offset[axis] - 0.5 * (whole[axis] - part[axis]);
+        (from_middle + camera.principal_point_offset[axis] * whole[axis]) / part[axis]
+    };
+    Camera {
+        tan_half_width: camera.tan_half_width * part[0] / whole[0],
+        tan_half_height: camera.tan_half_height * part[1] / whole[1],
+        principal_point_offset: [shift(0), shift(1)],
+        ..camera
+    }
 }
 
 fn check_rigid(object: &Object, to_world: &DAffine3) -> Result<(), SceneError> {

@@ -1,6 +1,6 @@
 //! `default` and `$name`: values that the caller may replace.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use super::error::Fault;
 use super::names::{nearest_first, quote};
@@ -16,6 +16,8 @@ const LENGTH_LIMIT: usize = 1 << 26;
 pub(super) struct Defaults {
     defines: HashMap<String, String>,
     values: HashMap<String, String>,
+    /// The caller's names that stood somewhere without a default.
+    bare: HashSet<String>,
     substitutions: usize,
     written: usize,
 }
@@ -29,7 +31,7 @@ impl Defaults {
                 return Err(Fault::new(format!("-D {} is given twice", quote(name)), "give it once"));
             }
         }
-        Ok(Defaults { defines: map, values: HashMap::new(), substitutions: 0, written: 0 })
+        Ok(Defaults { defines: map, values: HashMap::new(), bare: HashSet::new(), substitutions: 0, written: 0 })
     }
 
     /// Meets `<default name value>`: the caller's value wins, then the first of the file, as in Mitsuba. Returns the
@@ -50,12 +52,16 @@ impl Defaults {
         self.defines.contains_key(name)
     }
 
-    /// The text with every `$name` replaced.
+    /// The text with every `$name` replaced; what the caller gives needs no default, as in Mitsuba.
     pub(super) fn substitute(&mut self, text: &str) -> Result<String, Fault> {
         let mut pieces = text.split('$');
         let mut result = pieces.next().unwrap_or_default().to_owned();
         for piece in pieces {
-            let (name, value) = leading_name(&self.values, piece)?;
+            let known = |name: &str| self.defines.get_key_value(name).or_else(|| self.values.get_key_value(name));
+            let (name, value) = leading_name(known, piece).ok_or_else(|| self.unknown(piece))?;
+            if !self.values.contains_key(name) {
+                self.bare.insert(name.to_owned());
+            }
             self.substitutions += 1;
             self.written += value.len() + piece.len();
             if self.substitutions > COUNT_LIMIT || self.written > LENGTH_LIMIT {
@@ -67,10 +73,22 @@ impl Defaults {
         Ok(result)
     }
 
+    fn unknown(&self, piece: &str) -> Fault {
+        let wanted = piece.split(|c| !is_word(c)).next().unwrap_or_default();
+        let known = nearest_first(wanted, self.values.keys().map(String::as_str));
+        Fault::new(
+            format!("{} has no default before this line", quote(&format!("${wanted}"))),
+            format!("add a <default> above it, or give it by -D; defined so far: {known}"),
+        )
+    }
+
+    fn is_met(&self, name: &str) -> bool {
+        self.values.contains_key(name) || self.bare.contains(name)
+    }
+
     /// Checks, after the whole scene, that every define of the caller had a default to replace.
     pub(super) fn check_used(&self) -> Result<(), Fault> {
-        let mut unused: Vec<&str> =
-            self.defines.keys().filter(|name| !self.values.contains_key(*name)).map(String::as_str).collect();
+        let mut unused: Vec<&str> = self.defines.keys().map(String::as_str).filter(|name| !self.is_met(name)).collect();
         unused.sort_unstable();
         let Some(name) = unused.first() else {
             return Ok(());
@@ -85,19 +103,15 @@ impl Defaults {
 
 /// The longest known name that `text` starts with, and its value. A letter or digit after it means that another name
 /// was meant (Mitsuba would paste the value and the rest together).
-fn leading_name<'v>(values: &'v HashMap<String, String>, text: &str) -> Result<(&'v str, &'v str), Fault> {
+fn leading_name<'v>(
+    known: impl Fn(&str) -> Option<(&'v String, &'v String)>,
+    text: &str,
+) -> Option<(&'v str, &'v str)> {
     let longest = (1..=NAME_LIMIT.min(text.len())).rev();
-    let found = longest.filter_map(|end| values.get_key_value(text.get(..end)?)).next();
-    let is_word = |c: char| c.is_alphanumeric() || c == '_';
-    if let Some((name, value)) = found
-        && !text[name.len()..].starts_with(is_word)
-    {
-        return Ok((name, value));
-    }
-    let wanted = text.split(|c| !is_word(c)).next().unwrap_or_default();
-    let known = nearest_first(wanted, values.keys().map(String::as_str));
-    Err(Fault::new(
-        format!("{} has no default before this line", quote(&format!("${wanted}"))),
-        format!("add a <default> above it; defined so far: {known}"),
-    ))
+    let (name, value) = longest.filter_map(|end| known(text.get(..end)?)).next()?;
+    (!text[name.len()..].starts_with(is_word)).then_some((name, value))
+}
+
+fn is_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
 }

@@ -47,13 +47,20 @@ pub(super) fn roughness(object: &mut Object) -> Result<Roughness, SceneError> {
         Some("ggx") => Microfacets::Ggx,
         _ => Microfacets::Beckmann,
     };
-    let alpha = object.float("alpha", Range::ROUGHNESS)?.unwrap_or(ALPHA);
-    for name in ["alpha_u", "alpha_v"] {
-        if let Some(element) = object.take(name, &["float", "integer"])? {
-            let what = format!("{name}, a roughness that differs with direction, is known but not built yet");
-            return Err(element.error(what, "give alpha, the same in all directions, for now"));
+    let alpha = object.float("alpha", Range::ROUGHNESS)?;
+    let [along_u, along_v] = [object.float("alpha_u", Range::ROUGHNESS)?, object.float("alpha_v", Range::ROUGHNESS)?];
+    let alpha = match (alpha, along_u, along_v) {
+        (alpha, None, None) => alpha.unwrap_or(ALPHA),
+        (None, Some(u), Some(v)) if u == v => u,
+        (None, Some(_), Some(_)) => {
+            let what = "a roughness that differs with direction is known but not built yet";
+            return Err(object.element.error(what, "give alpha, the same in all directions, for now"));
         }
-    }
+        _ => {
+            let what = "alpha_u and alpha_v are not both given, or beside alpha";
+            return Err(object.element.error(what, "give alpha alone"));
+        }
+    };
     // Facets are always drawn as seen; Mitsuba's switch changes noise, not light.
     object.boolean("sample_visible")?;
     Ok(Roughness { facets, alpha })

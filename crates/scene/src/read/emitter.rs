@@ -98,10 +98,8 @@ fn spot(mut object: Object, id: String, builder: &mut Builder) -> Result<Emitter
     let intensity = emission(&mut object, "intensity", builder)?;
     let cutoff = object.float("cutoff_angle", Range::CUTOFF)?.unwrap_or(20.0);
     let beam = object.float("beam_width", Range::CUTOFF)?.unwrap_or(0.75 * cutoff);
-    if beam > cutoff {
-        let what = format!("beam_width {beam} is wider than cutoff_angle {cutoff}");
-        return Err(object.element.error(what, "give half-angles in degrees with beam_width at most cutoff_angle"));
-    }
+    // A beam wider than the cone is cut off by it, as in Mitsuba.
+    let beam = beam.min(cutoff);
     object.close(&["texture"])?;
     let axis = to_world.matrix3.z_axis.normalize();
     let pattern = Pattern::Spot { axis, beam: beam.to_radians(), cutoff: cutoff.to_radians() };

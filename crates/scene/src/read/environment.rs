@@ -29,7 +29,7 @@ fn constant(mut object: Object, builder: &mut Builder) -> Result<EnvironmentLigh
 }
 
 fn envmap(mut object: Object, builder: &mut Builder) -> Result<EnvironmentLight, SceneError> {
-    let to_world = rotation(&mut object)?;
+    let to_world = turned(&mut object, true)?;
     let scale = object.float("scale", Range::EMISSION)?.unwrap_or(1.0);
     if object.float("sampling_weight", Range::ANY)?.is_some() || object.boolean("mis_compensation")?.is_some() {
         builder.note("sampling_weight and mis_compensation are for Mitsuba's own sampling and have no effect here");
@@ -85,8 +85,13 @@ fn general(object: &mut Object, zenith: DVec3) -> Result<SkyLaw, SceneError> {
 
 /// The rotation that `to_world` states; what stands at infinity has no place and no size.
 pub(super) fn rotation(object: &mut Object) -> Result<DMat3, SceneError> {
+    turned(object, false)
+}
+
+/// The same, of what may be mirrored too.
+fn turned(object: &mut Object, mirrors: bool) -> Result<DMat3, SceneError> {
     let to_world = object.transform()?.unwrap_or(DAffine3::IDENTITY);
-    turn(&to_world).ok_or_else(|| {
+    turn(&to_world, mirrors).ok_or_else(|| {
         let what = "to_world of what stands at infinity is no rotation";
         object.element.error(what, "use rotate or lookat alone")
     })

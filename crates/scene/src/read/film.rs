@@ -17,8 +17,26 @@ const SIDE_LIMIT: u32 = 65536;
 /// Most cells.
 const CELL_LIMIT: u64 = 1 << 28;
 
+/// A film, and the part of it that is wanted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Window {
+    /// The whole film, for which fields of view are stated.
+    pub(super) whole: Film,
+    /// The part.
+    pub(super) part: Film,
+    /// First column and row of the part.
+    pub(super) offset: [u32; 2],
+}
+
+impl Window {
+    /// A film wanted as a whole.
+    pub(super) fn of(whole: Film) -> Self {
+        Window { whole, part: whole, offset: [0, 0] }
+    }
+}
+
 /// Reads a film.
-pub(super) fn film<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<Film, SceneError> {
+pub(super) fn film<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<Window, SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
     let film = Film {
@@ -29,12 +47,32 @@ pub(super) fn film<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resul
         let what = format!("{} x {} cells are more than 2^28", film.width, film.height);
         return Err(element.error(what, "use a smaller film"));
     }
+    let window = window(&mut object, film)?;
     output(&mut object, builder)?;
     if let Some(filter) = object.single(&["rfilter"])? {
         rfilter(filter, builder)?;
     }
-    object.close(&["crop_width", "crop_height", "crop_offset_x", "crop_offset_y"])?;
-    Ok(film)
+    object.close(&[])?;
+    Ok(window)
+}
+
+/// The part of a film that `crop_width` and its like cut out, all of it if they are absent.
+fn window(object: &mut Object, whole: Film) -> Result<Window, SceneError> {
+    let part = Film {
+        width: side(object, "crop_width")?.unwrap_or(whole.width),
+        height: side(object, "crop_height")?.unwrap_or(whole.height),
+    };
+    let offset = [object.integer("crop_offset_x")?.unwrap_or(0), object.integer("crop_offset_y")?.unwrap_or(0)];
+    let ends = [offset[0].saturating_add(part.width.into()), offset[1].saturating_add(part.height.into())];
+    match offset.map(u32::try_from) {
+        [Ok(x), Ok(y)] if ends[0] <= whole.width.into() && ends[1] <= whole.height.into() => {
+            Ok(Window { whole, part, offset: [x, y] })
+        }
+        _ => {
+            let what = format!("the crop reaches beyond the film of {} x {}", whole.width, whole.height);
+            Err(object.element.error(what, "make crop_width, crop_height and their offsets smaller"))
+        }
+    }
 }
 
 fn side(object: &mut Object, name: &'static str) -> Result<Option<u32>, SceneError> {

@@ -1,4 +1,4 @@
-//! What this program chooses by itself: integrators and samplers are superseded, except for the depth they ask for.
+//! What this program chooses by itself: integrators and samplers are superseded, except for the depth and the hidden lamps that they ask for.
 
 use super::element::Element;
 use super::error::SceneError;
@@ -7,7 +7,7 @@ use super::object::Object;
 use super::plugins;
 use super::scene::Builder;
 
-/// Reads the integrator: `max_depth` goes into the scene, the rest into a note.
+/// Reads the integrator: `max_depth` and `hide_emitters` go into the scene, the rest into a note.
 pub(super) fn integrator<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<(), SceneError> {
     if let Some(first) = builder.integrator.replace(element) {
         let what = format!("a second integrator, the first is at {}", first.place);
@@ -24,16 +24,15 @@ pub(super) fn integrator<'e>(element: &'e Element, builder: &mut Builder<'e>) ->
             unused.push(name);
         }
     }
-    match object.boolean("hide_emitters")? {
-        Some(true) => {
-            return Err(element.error("hide_emitters is known but not built yet", "set it to false"));
-        }
-        Some(false) => unused.push("hide_emitters"),
-        None => {}
-    }
+    builder.scene.hides_lamps = object.boolean("hide_emitters")?.unwrap_or(false);
     let plugin = object.plugin;
     object.close(&["integrator", "samples", "block_size", "timeout"])?;
-    let obeyed = if depth.is_some() { "; its max_depth is obeyed" } else { "" };
+    let obeyed = match (depth.is_some(), builder.scene.hides_lamps) {
+        (true, true) => "; its max_depth is obeyed, and hide_emitters by cameras",
+        (true, false) => "; its max_depth is obeyed",
+        (false, true) => "; its hide_emitters is obeyed by cameras",
+        (false, false) => "",
+    };
     let without = if unused.is_empty() { String::new() } else { format!("; not used: {}", unused.join(", ")) };
     builder.note(&format!("integrator {plugin} is superseded by --method{obeyed}{without}"));
     Ok(())

@@ -44,7 +44,7 @@ pub(super) fn luminaire(mut object: Object, id: String, builder: &mut Builder) -
         Some(along) => looking(unit(along).ok_or_else(|| {
             element.error("direction is zero", "give the direction in which its nadir looks, such as 0 0 -1")
         })?),
-        None => turn(&placed.unwrap_or(DAffine3::IDENTITY)).ok_or_else(|| {
+        None => turn(&placed.unwrap_or(DAffine3::IDENTITY), false).ok_or_else(|| {
             element.error("to_world of a luminaire shears or mirrors it", "use rotate, lookat and translate alone")
         })?,
     };

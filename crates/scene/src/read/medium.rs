@@ -6,7 +6,6 @@ use crate::{Boundary, Medium, Phase};
 
 use super::element::Element;
 use super::error::SceneError;
-use super::names::{nearest_first, quote};
 use super::number::Range;
 use super::object::Object;
 use super::plugins;
@@ -35,12 +34,12 @@ fn side<'e>(object: &mut Object<'e>, name: &'static str, builder: &mut Builder<'
 /// Reads a medium, or finds the one that a `ref` names.
 pub(super) fn medium<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Result<u32, SceneError> {
     if element.tag.name == "ref" {
-        let id = element.required("id");
-        return builder.media.get(id).copied().ok_or_else(|| {
-            let known = nearest_first(id, builder.media.keys().copied());
-            element
-                .error(format!("no medium has the id {} so far", quote(id)), format!("media defined so far: {known}"))
-        });
+        return builder.follow(element, &["medium"], medium);
+    }
+    // A `ref` before it may have read it.
+    let id = element.attribute("id");
+    if let Some(&known) = id.and_then(|id| builder.media.get(id)) {
+        return Ok(known);
     }
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
@@ -52,9 +51,9 @@ pub(super) fn medium<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Res
     let phase = object.single(&["phase"])?.map(phase).transpose()?.unwrap_or(Phase::Isotropic);
     object.close(&["volume"])?;
     let index = builder.scene.media.len();
-    let id = builder.id(element, "medium", index)?;
-    builder.scene.media.push(Medium { id, sigma_t, albedo, phase });
-    if let Some(id) = element.attribute("id") {
+    let name = builder.id(element, "medium", index)?;
+    builder.scene.media.push(Medium { id: name, sigma_t, albedo, phase });
+    if let Some(id) = id {
         builder.media.insert(id, index as u32);
     }
     Ok(index as u32)

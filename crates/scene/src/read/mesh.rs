@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{BufRead, BufReader, Seek};
+use std::io::BufReader;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
@@ -13,6 +13,7 @@ use super::element::Element;
 use super::error::{Fault, SceneError};
 use super::names::quote;
 use super::number::Range;
+use super::obj::read_obj;
 use super::object::Object;
 use super::picture::beside;
 use super::ply::read_ply;
@@ -72,55 +73,6 @@ fn open(element: &Element, name: &str) -> Result<BufReader<File>, Fault> {
         return Err(Fault::new(format!("has more than {LARGEST_FILE} bytes"), "give a smaller mesh"));
     }
     Ok(BufReader::new(file))
-}
-
-fn read_obj(mut reader: BufReader<File>) -> Result<Faces, Fault> {
-    check_normals(&mut reader)?;
-    let options =
-        tobj::LoadOptions { triangulate: true, ignore_points: true, ignore_lines: true, ..Default::default() };
-    // Materials are given in the scene.
-    let no_materials = |_: &std::path::Path| Ok(Default::default());
-    let (models, _) = tobj::load_obj_buf(&mut reader, &options, no_materials)
-        .map_err(|error| Fault::new(format!("is no valid OBJ file: {error}"), "export it again"))?;
-    let has_normals = models.iter().all(|model| !model.mesh.normal_indices.is_empty());
-    let mut all = Faces { vertices: Vec::new(), faces: Vec::new(), normals: has_normals.then(Vec::new) };
-    for mesh in models.into_iter().map(|model| model.mesh) {
-        let first = all.vertices.len() as u32;
-        let triple = |list: &[f64], index: u32| DVec3::from_slice(&list[3 * index as usize..][..3]);
-        all.vertices.extend((0..mesh.positions.len() as u32 / 3).map(|index| triple(&mesh.positions, index)));
-        all.faces.extend(mesh.indices.as_chunks().0.iter().map(|face: &[u32; 3]| face.map(|index| first + index)));
-        if let Some(normals) = &mut all.normals {
-            let corners = |face: &[u32; 3]| face.map(|index| triple(&mesh.normals, index));
-            normals.extend(mesh.normal_indices.as_chunks().0.iter().map(corners));
-        }
-    }
-    Ok(all)
-}
-
-/// The library makes up normals for faces without where others have some; such a file is refused.
-fn check_normals(reader: &mut BufReader<File>) -> Result<(), Fault> {
-    let unreadable = |error: std::io::Error| Fault::new(format!("cannot be read: {error}"), "give a readable file");
-    let (mut with, mut without, mut number) = (None, None, 0);
-    let mut line = Vec::new();
-    while reader.read_until(b'\n', &mut line).map_err(unreadable)? > 0 {
-        number += 1;
-        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
-        if words.next() == Some(b"f") {
-            let has_normal =
-                |word: &[u8]| word.split(|&byte| byte == b'/').nth(2).is_some_and(|index| !index.is_empty());
-            let side = if words.all(has_normal) { &mut with } else { &mut without };
-            side.get_or_insert(number);
-        }
-        line.clear();
-    }
-    reader.rewind().map_err(unreadable)?;
-    match (with, without) {
-        (Some(with), Some(without)) => {
-            let what = format!("has a face with normals in line {with}, and one without in line {without}");
-            Err(Fault::new(what, "export it with normals for all faces, or for none"))
-        }
-        _ => Ok(()),
-    }
 }
 
 /// The mesh in world units; how many faces were left out because they have no area; and how many were turned around. Where a

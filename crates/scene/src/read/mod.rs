@@ -26,6 +26,7 @@ mod mesh;
 mod metal;
 mod names;
 mod number;
+mod obj;
 mod object;
 mod picture;
 mod plugins;

@@ -15,7 +15,7 @@ use super::integrator::integrator;
 use super::load::Loaded;
 use super::lumens::keep_lumens;
 use super::medium::medium;
-use super::names::quote;
+use super::names::{nearest_first, quote};
 use super::sensor::{Position, sensor};
 use super::shape::shape;
 
@@ -28,6 +28,10 @@ pub(super) struct Builder<'e> {
     pub(super) media: HashMap<&'e str, u32>,
     /// Every id of the whole scene, where it is and of which tag.
     pub(super) ids: &'e HashMap<String, (Place, &'static str)>,
+    /// Every element with an id: a `ref` may stand before what it names.
+    elements: HashMap<&'e str, &'e Element>,
+    /// The ids that are being read, each by a `ref` inside the one before.
+    open: Vec<&'e str>,
     pub(super) integrator: Option<&'e Element>,
     /// The luminaire files that were read so far: a room hangs one many times.
     pub(super) luminaires: HashMap<PathBuf, Arc<IntensityTable>>,
@@ -44,6 +48,7 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
         sensors: Vec::new(),
         media: Vec::new(),
         max_depth: None,
+        hides_lamps: false,
         notes: notes.clone(),
     };
     let mut builder = Builder {
@@ -51,14 +56,18 @@ pub(super) fn build(loaded: Loaded) -> Result<Scene, SceneError> {
         bsdfs: HashMap::new(),
         media: HashMap::new(),
         ids,
+        elements: HashMap::new(),
+        open: Vec::new(),
         integrator: None,
         luminaires: HashMap::new(),
         portals: Vec::new(),
     };
+    builder.find_ids(root);
     for element in &root.children {
         builder.part(element)?;
     }
     check_indices(root, &builder.scene)?;
+    builder.check_hidden_lamps()?;
     builder.aim()?;
     keep_lumens(&mut builder.scene);
     Ok(builder.scene)
@@ -80,6 +89,17 @@ fn check_indices(root: &Element, scene: &Scene) -> Result<(), SceneError> {
 }
 
 impl<'e> Builder<'e> {
+    /// A camera that looks through lamps starts behind them, and would miss what a medium before them does.
+    fn check_hidden_lamps(&self) -> Result<(), SceneError> {
+        match self.integrator.filter(|_| self.scene.hides_lamps && !self.scene.media.is_empty()) {
+            Some(element) => {
+                let what = "hide_emitters in a scene with a medium is not built yet";
+                Err(element.error(what, "set it to false, or take the medium out"))
+            }
+            None => Ok(()),
+        }
+    }
+
     fn part(&mut self, element: &'e Element) -> Result<(), SceneError> {
         match element.tag.name {
             "integrator" => integrator(element, self),
@@ -98,6 +118,42 @@ impl<'e> Builder<'e> {
                     .error(what, "a scene takes bsdf, default, emitter, include, integrator, medium, sensor, shape"))
             }
         }
+    }
+
+    fn find_ids(&mut self, element: &'e Element) {
+        for child in &element.children {
+            if let Some(id) = child.attribute("id").filter(|_| child.tag.name != "ref") {
+                self.elements.insert(id, child);
+            }
+            self.find_ids(child);
+        }
+    }
+
+    /// The element that a `ref` names, whose tag must be one of `tags`, handed to `read`.
+    pub(super) fn follow<T>(
+        &mut self,
+        reference: &'e Element,
+        tags: &[&str],
+        read: impl FnOnce(&'e Element, &mut Self) -> Result<T, SceneError>,
+    ) -> Result<T, SceneError> {
+        let (id, wanted) = (reference.required("id"), tags.join(" or "));
+        let name = quote(id);
+        let Some(&element) = self.elements.get(id) else {
+            let of_tag = self.elements.iter().filter(|(_, element)| tags.contains(&element.tag.name));
+            let known = nearest_first(id, of_tag.map(|(id, _)| *id));
+            return Err(reference.error(format!("no {wanted} has the id {name}"), format!("the scene has {known}")));
+        };
+        if !tags.contains(&element.tag.name) {
+            let what = format!("{name} is the {} at {}, not a {wanted}", element.tag.name, element.place);
+            return Err(reference.error(what, format!("refer to a {wanted}")));
+        }
+        if self.open.contains(&id) {
+            return Err(reference.error(format!("{name} refers to itself"), "break the circle"));
+        }
+        self.open.push(id);
+        let found = read(element, self)?;
+        self.open.pop();
+        Ok(found)
     }
 
     /// Gives the environment its portals.

@@ -9,7 +9,7 @@ use super::element::Element;
 use super::emitter::check_one_of;
 use super::environment::rotation;
 use super::error::SceneError;
-use super::film;
+use super::film::{self, Window};
 use super::integrator::sampler;
 use super::medium::surrounding;
 use super::number::Range;
@@ -36,7 +36,14 @@ pub(super) fn sensor<'e>(
 ) -> Result<(), SceneError> {
     let mut object = Object::open(element)?;
     plugins::check(&object)?;
-    let film = object.single(&["film"])?.map(|film| film::film(film, builder)).transpose()?;
+    let window = object.single(&["film"])?.map(|film| film::film(film, builder)).transpose()?;
+    let film = window.map(|window| window.whole);
+    let is_camera = matches!(object.plugin, "perspective" | "thinlens");
+    if !is_camera && window.is_some_and(|window| window.part != window.whole) {
+        return Err(
+            element.error("the film of a meter is cropped", "give the cells that are wanted as its width and height")
+        );
+    }
     if let Some(element) = object.single(&["sampler"])? {
         sampler(element, builder)?;
     }
@@ -44,8 +51,8 @@ pub(super) fn sensor<'e>(
     let medium = surrounding(&mut object, builder)?;
     let (receiver, film) = match (object.plugin, position) {
         ("perspective" | "thinlens", Position::Free) => {
-            let film = film.unwrap_or(film::DEFAULT);
-            (Receiver::Camera(camera(&mut object, film, builder)?), film)
+            let window = window.unwrap_or(Window::of(film::DEFAULT));
+            (Receiver::Camera(camera(&mut object, window, builder)?), window.part)
         }
         ("distant", Position::Free) => {
             let film = one_cell(&object, film)?;

@@ -47,6 +47,10 @@ pub(super) fn shape<'e>(element: &'e Element, builder: &mut Builder<'e>) -> Resu
         None if portal.is_some() => Bsdf::Null,
         None => uncoated(radiance.is_some()),
     };
+    if let (Some(lamp), true) = (lamp, bsdf.lets_through()) {
+        let what = "a lamp on a surface that light passes (mask, null) is known but not built yet";
+        return Err(lamp.error(what, "give the lamp a shape of its own, without bsdf"));
+    }
     if let (Some(portal), true) = (portal, boundary.is_some()) {
         return Err(
             portal.error("a portal in a shape that bounds a medium", "put it before that, into a rectangle of its own")

@@ -33,11 +33,13 @@ pub(super) fn unit(vector: DVec3) -> Option<DVec3> {
     Some(vector / vector.length())
 }
 
-/// The rotation of a transform that rotates, moves and scales evenly; `None` of any other.
-pub(super) fn turn(transform: &DAffine3) -> Option<DMat3> {
+/// The rotation of a transform that rotates, moves and scales evenly, and with it a mirror if it `mirrors`; `None` of any
+/// other.
+pub(super) fn turn(transform: &DAffine3, mirrors: bool) -> Option<DMat3> {
     let axes = transform.matrix3 * transform.matrix3.x_axis.length().recip();
     let error = axes.transpose() * axes - DMat3::IDENTITY;
-    let turns = error.to_cols_array().into_iter().all(|entry| entry.abs() <= 1e-5) && axes.determinant() > 0.0;
+    let turns =
+        error.to_cols_array().into_iter().all(|entry| entry.abs() <= 1e-5) && (mirrors || axes.determinant() > 0.0);
     turns.then_some(axes)
 }
 

@@ -1,4 +1,4 @@
-//! The version of the format.
+//! The version of the format: 2 and 3 mean the same; before, properties had other names.
 
 use super::error::Fault;
 use super::names::quote;
@@ -11,8 +11,8 @@ pub(super) fn check_version(version: Option<&str>, required: bool) -> Result<(),
     };
     let parts: Option<Vec<u32>> = version.split('.').map(|part| part.parse().ok()).collect();
     match parts.as_deref() {
-        Some([3, rest @ ..]) if rest.len() <= 2 => Ok(()),
-        Some([0..=2, ..]) => Err(Fault::new(format!("version {} is older than Mitsuba 3", quote(version)), mend)),
+        Some([2 | 3, rest @ ..]) if rest.len() <= 2 => Ok(()),
+        Some([0 | 1, ..]) => Err(Fault::new(format!("version {} is older than Mitsuba 2", quote(version)), mend)),
         Some([(4..), ..]) => Err(Fault::new(format!("version {} is newer than Mitsuba 3", quote(version)), mend)),
         _ => Err(Fault::new(format!("version {} is not a version of Mitsuba", quote(version)), mend)),
     }

@@ -130,6 +130,31 @@ fn defaults_work_in_the_order_of_the_file() {
 }
 
 #[test]
+fn what_the_caller_gives_needs_no_default() {
+    let body = "<shape type='sphere'><float name='radius' value='$r'/></shape>";
+    let Geometry::Sphere { radius, .. } = read_body(body, &[("r", "3")]).expect("right").shapes[0].geometry else {
+        panic!("no sphere")
+    };
+    assert_eq!(radius, 3.0);
+    assert!(read_body(body, &[]).expect_err("unknown").to_string().contains("\"$r\" has no default before this line"));
+    let unused = read_body(body, &[("r", "3"), ("q", "1")]).expect_err("unused").to_string();
+    assert!(unused.contains("-D \"q\" names no default"), "{unused}");
+}
+
+#[test]
+fn version_two_is_read_like_three() {
+    let text = "<scene version='2.1.0'><shape type='sphere'/></scene>";
+    assert_eq!(photonlab_scene::read::read_scene_str(text, "t", &[]).expect("right").shapes.len(), 1);
+}
+
+#[test]
+fn cameras_can_be_told_to_see_no_lamps() {
+    let hidden = scene("<integrator type='path'><boolean name='hide_emitters' value='true'/></integrator>");
+    assert!(hidden.hides_lamps);
+    assert_eq!(hidden.notes, ["integrator path is superseded by --method; its hide_emitters is obeyed by cameras"]);
+}
+
+#[test]
 fn integrators_are_superseded_and_their_depth_obeyed() {
     let integrator = |inside: &str| scene(&format!("<integrator type='volpath'>{inside}</integrator>"));
     assert_eq!(integrator("").max_depth, None);

@@ -131,6 +131,26 @@ fn smooth_normals_are_mitsubas() {
     }
 }
 
+/// Groups part no corners, seams of a texture do, and corners can be counted from the end: the normals that Mitsuba 3.9.1
+/// makes (it reads no negative numbers).
+#[test]
+fn corners_are_told_apart_as_by_mitsuba() {
+    let corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\n";
+    let grouped =
+        format!("# a roof\nmtllib none.mtl\no roof\n{corners}g one\nusemtl red\nf 1 2 3 # and\ng two\ns 1\nf 1 3 4\n");
+    let from_the_end = format!("{corners}f -4 -3 -2\nf -4 -2 -1\n");
+    let seam = format!("{corners}vt 0 0\nvt 1 0\nvt 1 1\nvt 0.5 0.5\nf 1/1 2/2 3/3\nf 1/4 3/3 4/1\n");
+    let (shared, parted) = ([0.37, -0.37, 0.852], [0.0, 0.0, 1.0]);
+    for (content, first) in [(grouped, shared), (from_the_end, shared), (seam, parted)] {
+        let scene = read("a.obj", content.as_bytes(), "").unwrap_or_else(|error| panic!("{error}"));
+        let smooth = mesh(&scene).smooth.as_ref().expect("smooth normals are made");
+        let of = |face: usize, corner: usize| smooth.normals[smooth.corners[face][corner] as usize];
+        let near = |a: [f32; 3], b: [f32; 3]| (0..3).all(|axis| (a[axis] - b[axis]).abs() < 1e-3);
+        assert!(near(of(0, 0), first), "{content}: {:?}", of(0, 0));
+        assert!(near(of(0, 2), shared), "{content}: {:?}", of(0, 2));
+    }
+}
+
 #[test]
 fn broken_meshes_are_refused() {
     let header = |vertices: &str, faces: &str| {
@@ -149,6 +169,8 @@ fn broken_meshes_are_refused() {
         ("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n".into(), "no face with an area"),
         ("a.obj", format!("{SQUARE}vn 0 0 0\nf 1//1 2//1 3//1\n").replace("f 1 2 3 4\n", ""), "a normal that is zero"),
         ("a.obj", format!("{SQUARE}vn 0 0 1\nf 1//1 2//1 3//1\n"), "normals in line 7, and one without in line 5"),
+        ("a.obj", SQUARE.replace("f 1 2 3 4", "f 1//1 2//1 3//1"), "a face with normals in line 5, but no normals"),
+        ("a.obj", format!("{SQUARE}f 1 2\n"), "a face with fewer than three corners in line 6"),
         ("a.ply", "solid".into(), "no valid PLY file"),
         ("a.ply", header("3", "1") + three, "no valid PLY file"),
         ("a.ply", header("3", "1000000000000") + three + "3 0 1 2\n", "no valid PLY file"),

@@ -2,7 +2,9 @@
 
 use glam::DVec3;
 use photonlab_photometry::Spectrum;
-use photonlab_scene::{Bsdf, Camera, Dielectric, Emitter, Index, Meter, Microfacets, Pattern, Receiver, Roughness};
+use photonlab_scene::{
+    Bsdf, Camera, Dielectric, Emitter, Film, Index, Meter, Microfacets, Pattern, Receiver, Roughness,
+};
 
 use super::scene;
 
@@ -118,6 +120,25 @@ fn plates_coats_masks_and_transmitters() {
 }
 
 #[test]
+fn masks_in_masks_multiply_and_take_grey_colours() {
+    let mask = |opacity| Bsdf::Mask { opacity, surface: Box::new(diffuse(0.5)) };
+    let of = |opacity: &str, inside: &str| bsdf(&format!("<bsdf type='mask'>{opacity}{inside}</bsdf>"));
+    let matte = "<bsdf type='diffuse'/>";
+    assert_eq!(of("<rgb name='opacity' value='0.3'/>", matte), mask(0.3));
+    assert_eq!(of("<spectrum name='opacity' value='0.3'/>", matte), mask(0.3));
+    let inner = format!("<bsdf type='mask'>{matte}</bsdf>");
+    assert_eq!(of("<float name='opacity' value='0.5'/>", &inner), mask(0.25));
+    assert_eq!(of("", "<bsdf type='null'/>"), Bsdf::Null);
+}
+
+#[test]
+fn a_roughness_by_direction_may_be_the_same_in_both() {
+    let metal = |alpha: &str| bsdf(&format!("<bsdf type='roughconductor'>{alpha}</bsdf>"));
+    let both = "<float name='alpha_u' value='0.3'/><float name='alpha_v' value='0.3'/>";
+    assert_eq!(metal(both), metal("<float name='alpha' value='0.3'/>"));
+}
+
+#[test]
 fn twosided_shows_a_front_on_each_side() {
     let grey = |value: f64| format!("<bsdf type='diffuse'><float name='reflectance' value='{value}'/></bsdf>");
     let two = |front: f64, back: f64| Bsdf::TwoSided { front: Box::new(diffuse(front)), back: Box::new(diffuse(back)) };
@@ -142,6 +163,22 @@ fn a_ref_stands_for_an_earlier_bsdf() {
     let mirror = Bsdf::Mirror { reflectance: WHITE };
     let found: Vec<Bsdf> = scene.shapes.into_iter().map(|shape| shape.bsdf).collect();
     assert_eq!(found, [diffuse(0.1), both, mirror.clone(), mirror]);
+}
+
+#[test]
+fn a_ref_may_stand_before_what_it_names() {
+    let scene = scene(
+        "<shape type='cube'><ref id='both'/><ref name='interior' id='fog'/></shape>
+         <bsdf type='twosided' id='both'><ref id='white'/></bsdf>
+         <bsdf type='diffuse' id='white'><float name='reflectance' value='0.9'/></bsdf>
+         <medium type='homogeneous' id='fog'/>
+         <shape type='cube'><ref name='exterior' id='fog'/></shape>",
+    );
+    let both = Bsdf::TwoSided { front: Box::new(diffuse(0.9)), back: Box::new(diffuse(0.9)) };
+    assert_eq!(scene.shapes[0].bsdf, both);
+    assert_eq!(scene.media.len(), 1, "read once");
+    assert_eq!(scene.shapes[0].boundary.map(|sides| (sides.interior, sides.exterior)), Some((Some(0), None)));
+    assert_eq!(scene.shapes[1].boundary.map(|sides| (sides.interior, sides.exterior)), Some((None, Some(0))));
 }
 
 #[test]
@@ -217,6 +254,26 @@ fn fields_of_view_are_mitsubas() {
         assert!((found - degrees).abs() < 1e-4, "{inside}: {found}");
         let aspect = f64::from(width) / f64::from(height);
         assert!((camera.tan_half_width / camera.tan_half_height / aspect - 1.0).abs() < 1e-15);
+    }
+}
+
+/// Mitsuba 3.9.1 looks through these pixels' corners in these directions.
+#[test]
+fn a_crop_is_a_part_of_the_film() {
+    let crop = "<sensor type='perspective'><float name='fov' value='40'/>
+        <float name='principal_point_offset_x' value='0.2'/><float name='principal_point_offset_y' value='-0.15'/>
+        <film type='hdrfilm'><integer name='width' value='60'/><integer name='height' value='40'/>
+        <integer name='crop_width' value='24'/><integer name='crop_height' value='20'/>
+        <integer name='crop_offset_x' value='10'/><integer name='crop_offset_y' value='15'/></film></sensor>";
+    let sensor = scene(crop).sensors.remove(0);
+    let Receiver::Camera(camera) = sensor.receiver else { panic!("a camera") };
+    assert_eq!(sensor.film, Film { width: 24, height: 20 });
+    let along = |axis: usize, place: f64| {
+        let tangent = [camera.tan_half_width, camera.tan_half_height][axis];
+        (1.0 - 2.0 * (place + camera.principal_point_offset[axis])) * tangent
+    };
+    for (place, [x, y]) in [(0.0, [0.097059, 0.133456]), (0.5, [-0.048529, 0.012132]), (1.0, [-0.194117, -0.109191])] {
+        assert!((along(0, place) - x).abs() < 1e-6 && (along(1, place) - y).abs() < 1e-6, "{place}");
     }
 }
 

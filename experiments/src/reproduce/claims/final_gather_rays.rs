@@ -41,7 +41,7 @@ struct Parameters {
 /// What a scene showed.
 struct Shown {
     paths_per_ray: Option<Interval>,
-    time_ratio: Option<f64>,
+    time_ratio: Option<Interval>,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
@@ -113,7 +113,7 @@ fn conclude(cube: &Shown, cornell_box: &Shown, precision: f64) -> (Verdict, Stri
     let (Some(a), Some(b)) = (narrow(cube), narrow(cornell_box)) else {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
     };
-    let time = |shown: &Shown| shown.time_ratio.map_or("unknown".into(), |t| format!("{t:.2}"));
+    let time = |shown: &Shown| shown.time_ratio.as_ref().map_or("unknown".into(), |t| format!("{:.2}", t.value));
     let reason = format!(
         "at few rays one gather ray replaces {:.1} paths ({:.1} to {:.1}) in CUBE and {:.1} ({:.1} to {:.1}) in the Cornell box, and \
          the gain ends at the photons' own noise; in CPU time at equal error, photons included, final gather takes {} and {} times as \

@@ -1,12 +1,14 @@
 //! The claims, one file each.
 
 mod catalogue;
+mod caustics;
 mod edge_darkening;
 mod even_noise;
 mod figure_1;
 mod final_gather_edges;
 mod final_gather_rays;
 mod fixed_noisier;
+mod interior;
 mod kd_memory;
 mod knn_bias;
 mod range_search;
@@ -37,6 +39,8 @@ pub(super) enum Claim {
     RangeSearch,
     KdMemory,
     ViewIndependence,
+    Interior,
+    Caustics,
     RenderingEquation,
     Figure1,
     Catalogue,
@@ -44,7 +48,7 @@ pub(super) enum Claim {
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue is run when it is asked for.
-    pub(super) const ALL: [Claim; 15] = [
+    pub(super) const ALL: [Claim; 17] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -58,6 +62,8 @@ impl Claim {
         Claim::RangeSearch,
         Claim::KdMemory,
         Claim::ViewIndependence,
+        Claim::Interior,
+        Claim::Caustics,
         Claim::RenderingEquation,
         Claim::Figure1,
     ];
@@ -78,6 +84,8 @@ impl Claim {
             Claim::RangeSearch => "range-search",
             Claim::KdMemory => "kd-memory",
             Claim::ViewIndependence => "view-independence",
+            Claim::Interior => "interior",
+            Claim::Caustics => "caustics",
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
@@ -100,6 +108,8 @@ impl Claim {
             Claim::RangeSearch => include_str!("../../../definitions/range-search.toml"),
             Claim::KdMemory => include_str!("../../../definitions/kd-memory.toml"),
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
+            Claim::Interior => include_str!("../../../definitions/interior.toml"),
+            Claim::Caustics => include_str!("../../../definitions/caustics.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
@@ -122,6 +132,8 @@ impl Claim {
             Claim::RangeSearch => range_search::run(context),
             Claim::KdMemory => kd_memory::run(context),
             Claim::ViewIndependence => view_independence::run(context),
+            Claim::Interior => interior::run(context),
+            Claim::Caustics => caustics::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),

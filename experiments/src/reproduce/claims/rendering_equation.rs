@@ -9,6 +9,7 @@ use serde::Deserialize;
 use crate::reproduce::{
     context::{Context, Findings},
     furnace::{self, FurnaceReading},
+    slab::{self, SlabReading},
     table::{Table, row},
     transmitter::{self, Sheet, SheetReadings},
 };
@@ -18,6 +19,7 @@ use crate::reproduce::{
 struct Parameters {
     furnace: furnace::Parameters,
     sheet: Sheet,
+    slab: slab::Parameters,
     /// A radiance known worse than this (relative half-width) says nothing.
     precision: f64,
 }
@@ -25,8 +27,8 @@ struct Parameters {
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
     let sheet = DiffuseTransmitter::new(p.sheet.reflectance, p.sheet.transmittance)?;
-    let mut table = Table::new(p.furnace.readings() + transmitter::QUANTITIES);
-    let mut found = Findings { seeds: vec![p.furnace.seed, p.sheet.seed], ..Findings::default() };
+    let mut table = Table::new(p.furnace.readings() + transmitter::QUANTITIES + p.slab.readings());
+    let mut found = Findings { seeds: vec![p.furnace.seed, p.sheet.seed, p.slab.seed], ..Findings::default() };
     let furnaces = furnace::read(&p.furnace, table.confidence)?;
     for reading in &furnaces {
         let expected =
@@ -36,8 +38,17 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     }
     let readings = transmitter::read(&p.sheet, &sheet)?;
     judge_sheet(&mut table, &p, &sheet, &readings, &mut found);
-    found.figures = vec![furnace_figure(&p, &table, &furnaces), sheet_figure(&p, &table, &sheet, &readings)];
-    let (comparisons, verdict, reason) = table.conclude(|| verdict(&p, &furnaces, &readings));
+    let slabs = slab::read(&p.slab, table.confidence)?;
+    for reading in &slabs {
+        reading.judge(&mut table, p.precision);
+        found.rows.push(reading.row());
+    }
+    found.figures = vec![
+        furnace_figure(&p, &table, &furnaces),
+        sheet_figure(&p, &table, &sheet, &readings),
+        slab::figure(&p.slab, &table, &slabs)?,
+    ];
+    let (comparisons, verdict, reason) = table.conclude(|| verdict(&p, &furnaces, &readings, &slabs));
     found.comparisons = comparisons;
     Ok(context.record(found, verdict, reason))
 }
@@ -99,16 +110,22 @@ fn judge_sheet(
     }
 }
 
-fn verdict(p: &Parameters, furnaces: &[FurnaceReading], readings: &SheetReadings) -> (Verdict, String) {
+fn verdict(
+    p: &Parameters,
+    furnaces: &[FurnaceReading],
+    readings: &SheetReadings,
+    slabs: &[SlabReading],
+) -> (Verdict, String) {
     let brightest = p.furnace.reflectances.iter().copied().fold(0.0, f64::max);
     let values = furnaces.iter().filter(|f| f.reflectance == brightest).filter_map(|f| Some(f.measured?.value));
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), x| (low.min(x), high.max(x)));
     let mean = |values: &Replicates| values.mean().unwrap_or(f64::NAN);
+    let of_slabs = slab::shortfall(slabs);
     let reason = format!(
         "with luminance factors (relative to a perfect diffuser) and |cos| eq. 1 gives what is measured: {low:.3} to {high:.3} times \
          the emission in a furnace of rho = {brightest} ({:.3} expected), {:.3} for a diffusing sheet ({:.3} by counting photons). \
          With a BSDF in 1/sr, which is this program's convention and has no extra 1 / pi, it would read {:.3} and {:.3}; with the \
-         cosine's sign kept, {:.3}. In-scattering in media is not measured: media are not modelled yet",
+         cosine's sign kept, {:.3}. In media it lacks the light scattered into the line: {of_slabs}",
         1.0 / (1.0 - brightest),
         mean(&readings.luminance_factor),
         mean(&readings.counted),

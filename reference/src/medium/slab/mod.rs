@@ -87,13 +87,36 @@ impl Slab {
     fn diffuse_case(&self, cosines: &[f64]) -> Case {
         let mut draft = self.over_meter();
         draft.add(&mitsuba::constant_light(&[1.0]));
-        let shares = self.shares(cosines);
-        self.add_meter(&mut draft, PI * shares.diffuse.transmitted);
-        for (&mu, beam) in cosines.iter().zip(&shares.beams) {
-            let from = [2.0 * (1.0 - mu * mu).sqrt(), 0.0, self.thickness + 2.0 * mu];
-            draft.radiance(from, [0.0, 0.0, self.thickness], &[beam.reflected], 4.0 * (-14f64).exp());
-        }
+        self.add_meter(&mut draft, PI * self.shares(cosines).diffuse.transmitted);
+        self.look_at_it(&mut draft, cosines, |beam| beam.reflected);
         draft.case(format!("diffuse, {}", self.name()))
+    }
+
+    /// A lamp of radiance 1 under the whole slab, black else: the slab shows each direction its transmitted share, by
+    /// reciprocity with a beam that comes from there. The sensors follow the order of the cosines.
+    pub fn lit_from_behind(&self, cosines: &[f64]) -> Case {
+        let mut draft = self.over_meter();
+        let place = Place::floor([0.0, 0.0, -0.5 * GAP], [2.0 * self.margin(); 2]);
+        draft.add(&mitsuba::flat("rectangle", "lamp", place, &mitsuba::area_lamp(&[1.0])));
+        self.look_at_it(&mut draft, cosines, |beam| beam.transmitted);
+        draft.case(format!("lit from behind, {}", self.name()))
+    }
+
+    /// Uniform light of radiance 1 from above on the slab over black: it shows each direction its reflected share. The
+    /// sensors follow the order of the cosines.
+    pub fn lit_from_above(&self, cosines: &[f64]) -> Case {
+        let mut draft = self.over_meter();
+        draft.add(&mitsuba::constant_light(&[1.0]));
+        self.look_at_it(&mut draft, cosines, |beam| beam.reflected);
+        draft.case(format!("lit from above, {}", self.name()))
+    }
+
+    /// Radiance meters above the slab's middle that look down at it at these cosines.
+    fn look_at_it(&self, draft: &mut Draft, cosines: &[f64], share: impl Fn(&Shares) -> f64) {
+        for (&mu, beam) in cosines.iter().zip(&self.shares(cosines).beams) {
+            let from = [2.0 * (1.0 - mu * mu).sqrt(), 0.0, self.thickness + 2.0 * mu];
+            draft.radiance(from, [0.0, 0.0, self.thickness], &[share(beam)], 4.0 * (-14f64).exp());
+        }
     }
 
     fn over_meter(&self) -> Draft {
@@ -200,5 +223,20 @@ mod tests {
         mitsuba::assert_balanced(&case.xml);
         assert!(case.xml.contains("type=\"hg\"><float name=\"g\" value=\"0.75\""), "{}", case.xml);
         assert!((case.expected[1].value[0] - 0.097394639).abs() < 1e-7);
+        let [behind, above] = [slab.lit_from_behind(&[1.0, 0.5]), slab.lit_from_above(&[1.0, 0.5])];
+        mitsuba::assert_balanced(&behind.xml);
+        mitsuba::assert_balanced(&above.xml);
+        assert!((behind.expected[1].value[0] - 0.41589043).abs() < 1e-7);
+        assert!((above.expected[0].value[0] - 0.097394639).abs() < 1e-7);
+    }
+
+    /// A medium that scatters nothing leaves what no collision took, and shows nothing of its own.
+    #[test]
+    fn without_scattering_only_the_transmittance_is_left() {
+        let slab = Slab::new(1.5, 0.0, 0.0).expect("valid");
+        for (mu, beam) in [1.0f64, 0.5, 0.1].into_iter().zip(slab.shares(&[1.0, 0.5, 0.1]).beams) {
+            let through = crate::rendering_equation::transmittance(1.5, mu);
+            assert!((beam.transmitted - through).abs() < 1e-7 && beam.reflected.abs() < 1e-12, "{mu}: {beam:?}");
+        }
     }
 }
