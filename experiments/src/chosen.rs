@@ -16,11 +16,9 @@ use crate::{
 /// Photons of a nearest-photon estimate unless asked otherwise.
 const DEFAULT_K: usize = 50;
 
-/// Beside an edge whose light has a slope the clipped area is off by a part of it that no number of photons takes away: with
-/// a ball of a tenth of CUBE's half-edge, a quarter of a radius from an edge by +2.4 %, from a corner by +5.2 %. The linear
-/// fit reads +0.1 +- 0.2 % and -0.2 +- 1.1 % there, and what it costs, up to three times the standard error in a corner and
-/// twice at an edge, the error bar tells. In the open the disc, the clipped area and the fit are one.
-const DEFAULT_AREA: AreaModel = AreaModel::Linear;
+/// What else `--area` offers asks for all surface in the ball, each face of a mesh: where many faces fit in one ball that takes
+/// longer than everything else, and a linear fit may read less than nothing beside a shadow. In the open all are one.
+const DEFAULT_AREA: AreaModel = AreaModel::Disc;
 
 impl Options {
     /// The settings for a scene.
@@ -58,8 +56,7 @@ impl Options {
             Some(AreaName::Clipped) => AreaModel::Clipped,
             Some(AreaName::Linear) => AreaModel::Linear,
             Some(AreaName::Disc) => AreaModel::Disc,
-            None if name.reads_map_at_point() => DEFAULT_AREA,
-            None => AreaModel::Disc,
+            None => DEFAULT_AREA,
         };
         let kernel = match self.kernel {
             Some(KernelName::Disc) | None => Kernel::Disc,
@@ -146,10 +143,6 @@ impl Options {
 }
 
 impl MethodName {
-    fn reads_map_at_point(self) -> bool {
-        matches!(self, MethodName::Nearest | MethodName::Radius | MethodName::Adaptive)
-    }
-
     fn text(self) -> &'static str {
         match self {
             MethodName::Auto => "auto",

@@ -63,7 +63,7 @@ pub(crate) struct Options {
     /// Weight of a photon by its distance [default: disc].
     #[arg(long, value_enum)]
     pub(crate) kernel: Option<KernelName>,
-    /// What gathered flux is divided by, with the slope taken out beside edges or not [default: linear].
+    /// What gathered flux is divided by, with the slope taken out beside edges or not [default: disc].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
     /// Final-gather rays per point [default: 1].

@@ -203,7 +203,8 @@ impl<const C: usize> Look<'_, C> {
             irradiance: found.irradiance,
             bias: found.bias,
             noise: brightness * brightness * counted,
-            unresolved: if unresolved { found.irradiance } else { Colour::ZERO },
+            // A linear fit may read less than nothing, which is no less uncertain.
+            unresolved: if unresolved { found.irradiance.map(f64::abs) } else { Colour::ZERO },
             photons: found.photons as f64,
             reads: 1.0,
         }

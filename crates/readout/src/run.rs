@@ -54,7 +54,7 @@ impl<const C: usize> Run<C> {
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
             cells: self.cells,
             photons: self.photons,
-            passes: self.passes,
+            passes: self.passes + self.pilots,
             samples: self.samples,
             stopped,
             lamp_flux: optics.palette.develop(optics.lamps.total_flux()),

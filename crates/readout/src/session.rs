@@ -140,13 +140,7 @@ impl<const C: usize> Session<'_, C> {
         self.check_steady()?;
         let schedule = &self.fit_into_time(cells, schedule, source, start)?;
         let mut run = self.begin(cells, schedule, source)?;
-        let passes = match source {
-            Source::Trace => schedule.ends.passes,
-            Source::Map(file) => {
-                let left = file.passes.len() as u64 - run.pilots;
-                Some(schedule.ends.passes.unwrap_or(u64::MAX).min(left))
-            }
-        };
+        let passes = passes_at_hand(schedule, source).map(|passes| passes - run.pilots);
         let mut next_look = PASSES_BEFORE_STOPPING;
         let mut longest = Duration::ZERO;
         loop {
@@ -180,16 +174,18 @@ impl<const C: usize> Session<'_, C> {
     }
 
     /// An empty run; where cells find radii for themselves, after a pass that serves nothing else, because a mean is long in
-    /// forgetting passes that were read with a wrong radius. A map of one pass has none to spare.
+    /// forgetting passes that were read with a wrong radius. Its photons are part of those asked for; one pass alone has none
+    /// to spare.
     fn begin(&self, cells: &[Cell], schedule: &Schedule, source: &Source<'_, C>) -> Result<Run<C>, ReadError> {
         let run = Run::new(cells.len());
-        let single = matches!(source, Source::Map(file) if file.passes.len() < 2);
+        let single = passes_at_hand(schedule, source).is_some_and(|passes| passes < 2);
         if self.settings.method != Method::Adaptive || single {
             return Ok(run);
         }
         let mut pilot = Run::new(cells.len());
         self.pass(&mut pilot, cells, schedule, source)?;
-        Ok(Run { of_cells: pilot.of_cells, radii: pilot.radii, pilots: 1, ..run })
+        let Run { of_cells, radii, photons, samples, .. } = pilot;
+        Ok(Run { of_cells, radii, photons, samples, pilots: 1, ..run })
     }
 
     /// Follows some photons where a medium loses no light: one without an end would hold a ray from an eye for ever, and only
@@ -261,7 +257,7 @@ impl<const C: usize> Session<'_, C> {
         }
         let optics = &*self.optics.of_pass(self.world, source.seed(self.settings.seed), number as u32);
         let maps = self.maps(run, optics, number, schedule, source)?;
-        let samples = schedule.samples(run.passes);
+        let samples = schedule.samples(number);
         let shares: Vec<f64> = cells.iter().map(|cell| share(self.world, &optics.lamps, cell)).collect();
         let look = Look {
             world: self.world,
@@ -362,7 +358,7 @@ impl<const C: usize> Session<'_, C> {
         let photons = match source {
             Source::Map(file) => file.passes[number as usize].clone(),
             Source::Trace => {
-                let count = schedule.photons(run.passes);
+                let count = schedule.photons(number);
                 trace_pass(self.world, optics, &self.settings, self.settings.classes(), number as u32, count)?
             }
         };
@@ -370,5 +366,13 @@ impl<const C: usize> Session<'_, C> {
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
+    }
+}
+
+/// The passes asked for, or as many as a saved map has; `None` if only a target or a clock ends the run.
+fn passes_at_hand<const C: usize>(schedule: &Schedule, source: &Source<'_, C>) -> Option<u64> {
+    match source {
+        Source::Trace => schedule.ends.passes,
+        Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),
     }
 }
