@@ -101,7 +101,9 @@ MEDIA = {
     '<phase type="hg"><float name="g" value="-0.3"/></phase></medium></shape>',
     "smoked-glass": '<shape type="cube"><transform name="to_world"><scale value="0.4"/><rotate y="1" angle="30"/></transform><bsdf type="dielectric"/>'
     '<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="0.05 0.25 0.75"/><float name="scale" value="4"/><float name="albedo" value="0"/></medium></shape>',
-    "fog-room": '<shape type="cube"><transform name="to_world"><scale value="0.96"/></transform><bsdf type="null"/>'
+    # Where the fog reaches to within some 8 cm of the lamp, Mitsuba 3.9.1 loses up to half of what is scattered once below it: at y = 0.9
+    # in a fog of half-width 0.96 it shows 0.724 where quadrature gives 1.1110 and photonlab 1.1148 +- 0.0027.
+    "fog-room": '<shape type="cube"><transform name="to_world"><scale value="0.8"/></transform><bsdf type="null"/>'
     '<medium type="homogeneous" name="interior"><rgb name="sigma_t" value="0.3 0.6 1"/><float name="albedo" value="0.9"/></medium></shape>',
     "lamp-in-fog": '<medium type="homogeneous" id="fog"><rgb name="sigma_t" value="1 0.75 0.5"/><float name="scale" value="2"/><rgb name="albedo" value="0.9 0.8 0.7"/></medium>'
     '<shape type="cube"><transform name="to_world"><scale value="0.8"/></transform><bsdf type="null"/><ref name="interior" id="fog"/></shape>'

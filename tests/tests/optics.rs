@@ -27,7 +27,7 @@ fn judge(family: &mut Family, what: &str, cell: &CellResult<1>, answer: f64, pre
 /// through. A share of 1e-4 lost at each would be booked at once.
 #[test]
 fn a_light_guide_keeps_its_light() {
-    let (mut family, guide, lab) = (Family::new("light guide"), LightGuide::SCENE, lab("light-guide"));
+    let (mut family, guide, lab) = (Family::new("light guide, lamp before it"), LightGuide::SCENE, lab("light-guide"));
     for (method, number) in [(Method::Bins, 1200), (GATHER, 1201)] {
         let outcome = lab.measure::<1>(settings(method, seed(number)), 160_000, 16, 1 << 12);
         judge(&mut family, method.name(), &outcome.cells[0], guide.transmitted(), 1e-9);

@@ -161,7 +161,8 @@ fn judge(family: &mut Family, what: String, draw: &mut impl FnMut() -> Option<DV
     let total: f64 = expected.iter().sum();
     expected.iter_mut().for_each(|count| *count *= DRAWS as f64 / total);
     if lost.abs() < 1e-3 * DRAWS as f64 && observed[cells.count()] == 0 {
-        (observed.pop(), expected.pop());
+        observed.pop();
+        expected.pop();
         let total: f64 = expected.iter().sum();
         expected.iter_mut().for_each(|count| *count *= DRAWS as f64 / total);
     }

@@ -20,11 +20,18 @@ const TRIFLE: f64 = 0.02;
 /// Rays that one task follows.
 const BLOCK: u64 = 1024;
 
-/// What the weight of a point on a cell needs: (n1 / n2) A / (4 pi), zero where no rays are sent.
-pub(crate) fn share<const C: usize>(world: &World, lamps: &Lamps<C>, cell: &Cell) -> f64 {
-    let Target::Patch { shape, film, .. } = &cell.target else { return 0.0 };
-    let size = [film.width, film.height];
-    if is_near_a_lamp(world, lamps, *shape, size) { share_of(world, *shape, cell.cell, size) } else { 0.0 }
+/// What the weight of a point on each of the cells needs: (n1 / n2) A / (4 pi), zero where no rays are sent. Cells of one sensor
+/// stand together and share one look at the whole film, so the work grows with the cells and not with their square.
+pub(crate) fn shares<const C: usize>(world: &World, lamps: &Lamps<C>, cells: &[Cell]) -> Vec<f64> {
+    let of_sensor = |cells: &[Cell]| -> Vec<f64> {
+        let Some(Target::Patch { shape, film, .. }) = cells.first().map(|cell| &cell.target) else {
+            return vec![0.0; cells.len()];
+        };
+        let size = [film.width, film.height];
+        let is_near = is_near_a_lamp(world, lamps, *shape, size);
+        cells.iter().map(|cell| if is_near { share_of(world, *shape, cell.cell, size) } else { 0.0 }).collect()
+    };
+    cells.chunk_by(|a, b| a.sensor == b.sensor).flat_map(of_sensor).collect()
 }
 
 fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 {
@@ -35,7 +42,7 @@ fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 
 /// own points. Farther away the points alone are good, and the rare rays that met a cell would only add rare jumps.
 fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize, size: [u32; 2]) -> bool {
     let has_points = lamps.lamps.iter().any(|lamp| matches!(lamp.kind, LampKind::Point { .. }));
-    // Such rays know nothing of media; and without a point lamp the cells need not be looked at, which is done for each of them.
+    // Such rays know nothing of media; and without a point lamp the cells need not be looked at.
     if !world.scene.media.is_empty() || !has_points {
         return false;
     }

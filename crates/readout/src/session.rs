@@ -16,7 +16,7 @@ use crate::{
     bins::Bins,
     look::{Look, Sample},
     maps::PassMaps,
-    probe::{probe, share},
+    probe::{probe, shares},
     run::Run,
     trace_pass,
 };
@@ -258,7 +258,7 @@ impl<const C: usize> Session<'_, C> {
         let optics = &*self.optics.of_pass(self.world, source.seed(self.settings.seed), number as u32);
         let maps = self.maps(run, optics, number, schedule, source)?;
         let samples = schedule.samples(number);
-        let shares: Vec<f64> = cells.iter().map(|cell| share(self.world, &optics.lamps, cell)).collect();
+        let shares = shares(self.world, &optics.lamps, cells);
         let look = Look {
             world: self.world,
             optics,

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use photonlab_gather::Estimator;
-use photonlab_measure::Interval;
+use photonlab_measure::{Interval, normal_quantile};
 use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
 use photonlab_scene::Emitter;
 use photonlab_trace::Limits;
@@ -84,8 +84,9 @@ pub(super) struct Attempt {
     pub(super) measured: Vec<Option<Interval>>,
     /// Paths from lamps, and from this meter.
     pub(super) paths: u64,
-    /// Widest half-width over the value, by what was found however little that is; infinite if that is nothing, or if the
-    /// bound on the bias alone is beyond what is wanted, which more of the same does not mend.
+    /// Widest half-width over the value that this spread would have after many passes, by what was found however little that
+    /// is; infinite if that is nothing, or if the bound on the bias alone is beyond what is wanted, which more of the same
+    /// does not mend.
     promise: f64,
     /// Wall time of the run, which read other meters too.
     seconds: f64,
@@ -194,6 +195,7 @@ fn attempt<const C: usize>(
     let seconds = start.elapsed().as_secs_f64();
     let of_meter = |result: &CellResult<C>| {
         let found: Vec<_> = (0..outcome.results).map(|channel| interval(result, channel)).collect();
+        let promised: Vec<_> = (0..outcome.results).map(|channel| promised(result, channel)).collect();
         let biased = (0..outcome.results).any(|channel| {
             let value = result.value[channel].mean().unwrap_or(0.0);
             result.bias_bound_within(channel, 0.0) > precision * value.abs()
@@ -204,7 +206,7 @@ fn attempt<const C: usize>(
         let rests_on_few = rests_on < FEWEST;
         Attempt {
             way,
-            promise: if biased { f64::INFINITY } else { widest(&found) },
+            promise: if biased { f64::INFINITY } else { widest(&promised) },
             measured: if rests_on_few { vec![None; found.len()] } else { found },
             paths: outcome.photons + outcome.samples,
             seconds,
@@ -224,5 +226,13 @@ fn widest(channels: &[Option<Interval>]) -> f64 {
 fn interval<const C: usize>(result: &CellResult<C>, channel: usize) -> Option<Interval> {
     let value = result.value[channel].mean()?;
     let half = result.half_width(channel, CONFIDENCE)?;
+    (!result.found_nothing()).then(|| Interval::around(value, half, CONFIDENCE))
+}
+
+/// The same without what Student's t adds where passes are few.
+fn promised<const C: usize>(result: &CellResult<C>, channel: usize) -> Option<Interval> {
+    let value = result.value[channel].mean()?;
+    let noise = normal_quantile(0.5 + 0.5 * CONFIDENCE) * result.value[channel].std_error()?;
+    let half = noise + result.bias_bound_within(channel, 0.0);
     (!result.found_nothing()).then(|| Interval::around(value, half, CONFIDENCE))
 }

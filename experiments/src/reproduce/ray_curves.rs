@@ -32,6 +32,8 @@ pub(super) struct Measured {
     /// Mean over the seeds of the mean square relative error of the cells.
     square: Replicates,
     seconds: Replicates,
+    /// True if any cell of any seed read a map.
+    pub(super) reads_map: bool,
 }
 
 impl Measured {
@@ -100,7 +102,8 @@ impl<const C: usize> Bench<C> {
         found: &mut Findings,
     ) -> anyhow::Result<Vec<Measured>> {
         let mut one = |points: u64| -> anyhow::Result<Measured> {
-            let mut measured = Measured { rays: points as f64, square: Replicates::new(), seconds: Replicates::new() };
+            let (square, seconds) = (Replicates::new(), Replicates::new());
+            let mut measured = Measured { rays: points as f64, square, seconds, reads_map: false };
             for seed in seeds.clone() {
                 let clock = CpuClock::start();
                 let wanted = Wanted { photons, samples: Some(points), ..Wanted::default() };
@@ -109,6 +112,7 @@ impl<const C: usize> Bench<C> {
                 let square = self.mean_square_error(&outcome);
                 measured.square.push(square);
                 measured.seconds.push(spent);
+                measured.reads_map |= outcome.cells.iter().any(|cell| cell.asked_photons);
                 found.rows.push(row(self.id, &strategy, photons, points, seed, square.sqrt(), spent));
             }
             Ok(measured)
