@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::{AreaModel, Estimator, Kernel};
 use photonlab_photometry::UnitSystem;
 use photonlab_readout::{Direct, Method, Settings, Wanted};
 use photonlab_scene::Scene;
@@ -15,6 +15,10 @@ use crate::{
 
 /// Photons of a nearest-photon estimate unless asked otherwise.
 const DEFAULT_K: usize = 50;
+
+/// What else `--area` offers asks for all surface in the ball, each face of a mesh: where many faces fit in one ball that takes
+/// longer than everything else, and a linear fit may read less than nothing beside a shadow. In the open all are one.
+const DEFAULT_AREA: AreaModel = AreaModel::Disc;
 
 impl Options {
     /// The settings for a scene.
@@ -38,6 +42,7 @@ impl Options {
         let method = match name {
             MethodName::Nearest => Method::Nearest { k: usize::try_from(k).unwrap_or(usize::MAX) },
             MethodName::Radius => Method::Radius { radius: self.radius },
+            MethodName::Adaptive => Method::Adaptive,
             MethodName::Path => Method::Path,
             MethodName::Bins => Method::Bins,
             _ => Method::FinalGather { radius: self.radius },
@@ -48,12 +53,22 @@ impl Options {
         };
         let area = match self.area {
             Some(AreaName::Sphere) => AreaModel::Sphere,
-            _ => AreaModel::Disc,
+            Some(AreaName::Clipped) => AreaModel::Clipped,
+            Some(AreaName::Linear) => AreaModel::Linear,
+            Some(AreaName::Disc) => AreaModel::Disc,
+            None => DEFAULT_AREA,
+        };
+        let kernel = match self.kernel {
+            Some(KernelName::Disc) | None => Kernel::Disc,
+            Some(KernelName::Cone) => Kernel::Cone,
+            Some(KernelName::Epanechnikov) => Kernel::Epanechnikov,
+            Some(KernelName::Biweight) => Kernel::Biweight,
+            Some(KernelName::Gaussian) => Kernel::Gaussian,
         };
         Ok(Settings {
             method,
             direct,
-            area,
+            estimator: Estimator { kernel, area },
             gather_rays: self.gather_rays.unwrap_or(1),
             seed: self.seed,
             limits: Limits {
@@ -99,27 +114,24 @@ impl Options {
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
     fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 9] {
-        use MethodName::{Bins, FinalGather, Nearest, Path, Radius};
+        use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
             ("radius", self.radius.is_some(), &[FinalGather, Radius]),
-            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest]),
-            ("area", self.area.is_some(), &[Radius, Nearest]),
+            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest, Adaptive]),
+            ("area", self.area.is_some(), &[Radius, Nearest, Adaptive]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
-            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest]),
-            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Bins]),
-            ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Path]),
-            ("map", self.map.is_some(), &[FinalGather, Radius, Nearest]),
+            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive]),
+            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Bins]),
+            ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Path]),
+            ("map", self.map.is_some(), &[FinalGather, Radius, Nearest, Adaptive]),
         ]
     }
 
     fn refuse_what_is_not_built(&self) -> Result<(), Failure> {
         let not_built = match self.method {
-            MethodName::Adaptive => Some("--method adaptive"),
             MethodName::Progressive => Some("--method progressive"),
             _ if self.cache => Some("--cache"),
-            _ if self.kernel.is_some_and(|kernel| kernel != KernelName::Disc) => Some("a kernel other than disc"),
-            _ if self.area == Some(AreaName::Clipped) => Some("--area clipped"),
             _ if self.device == DeviceName::Gpu => Some("--device gpu"),
             _ => None,
         };

@@ -60,10 +60,10 @@ pub(crate) struct Options {
     /// Gather radius in metres [default: from scene and photons].
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) radius: Option<f64>,
-    /// Weight of a photon by its distance.
+    /// Weight of a photon by its distance [default: disc].
     #[arg(long, value_enum)]
     pub(crate) kernel: Option<KernelName>,
-    /// What gathered flux is divided by [default: disc].
+    /// What gathered flux is divided by, with the slope taken out beside edges or not [default: disc].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
     /// Final-gather rays per point [default: 1].
@@ -244,6 +244,7 @@ pub(crate) enum AreaName {
     Disc,
     Sphere,
     Clipped,
+    Linear,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,6 +1,6 @@
 //! The command that gives the same bits again.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::{AreaModel, Kernel};
 use photonlab_readout::{Direct, Method, Outcome, Settings};
 
 use crate::command::{Options, SceneArguments, UnitsName};
@@ -21,13 +21,30 @@ pub(crate) fn fixed_command<const C: usize>(
         Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
             option("radius", radius.to_string());
         }
-        Method::Radius { radius: None } | Method::FinalGather { radius: None } | Method::Path | Method::Bins => {}
+        Method::Radius { radius: None }
+        | Method::FinalGather { radius: None }
+        | Method::Adaptive
+        | Method::Path
+        | Method::Bins => {}
     }
     if settings.direct == Direct::Photons {
         option("direct", "photons".into());
     }
-    if settings.area == AreaModel::Sphere {
-        option("area", "sphere".into());
+    match settings.estimator.kernel {
+        Kernel::Disc => {}
+        Kernel::Cone => option("kernel", "cone".into()),
+        Kernel::Epanechnikov => option("kernel", "epanechnikov".into()),
+        Kernel::Biweight => option("kernel", "biweight".into()),
+        Kernel::Gaussian => option("kernel", "gaussian".into()),
+    }
+    if matches!(settings.method, Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive) {
+        let area = match settings.estimator.area {
+            AreaModel::Disc => "disc",
+            AreaModel::Sphere => "sphere",
+            AreaModel::Clipped => "clipped",
+            AreaModel::Linear => "linear",
+        };
+        option("area", area.into());
     }
     if settings.gather_rays > 1 {
         option("gather-rays", settings.gather_rays.to_string());

@@ -130,8 +130,8 @@ fn readings<const C: usize>(
     options: &Options,
     settings: &Settings,
 ) -> Result<Vec<Reading>, Failure> {
-    let passes = outcome.passes;
-    let t = if passes > 1 { student_t_quantile(options.confidence, (passes - 1) as f64) } else { 0.0 };
+    let degrees = outcome.cells.first().map_or(0.0, |cell| cell.value[0].degrees_of_freedom());
+    let t = if degrees > 0.0 { student_t_quantile(options.confidence, degrees) } else { 0.0 };
     let (scene, doubt) = (&loaded.world.scene, doubt(loaded, settings));
     let emits: Vec<bool> = (0..outcome.results).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
     let mut readings = Vec::new();
@@ -199,7 +199,7 @@ pub(crate) fn doubt(loaded: &Loaded, settings: &Settings) -> Option<String> {
             100.0 * loaded.leak
         ));
     }
-    if settings.area == photonlab_gather::AreaModel::Sphere {
+    if settings.estimator.area == photonlab_gather::AreaModel::Sphere {
         return Some(
             "the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into(),
         );

@@ -97,7 +97,8 @@ fn layers<const C: usize>(
     unit: &str,
     attributes: Vec<(String, String)>,
 ) -> Layers {
-    let quantile = (outcome.passes > 1).then(|| student_t_quantile(confidence, (outcome.passes - 1) as f64));
+    let degrees = outcome.cells.first().map_or(0.0, |cell| cell.value[0].degrees_of_freedom());
+    let quantile = (degrees > 0.0).then(|| student_t_quantile(confidence, degrees));
     let image = |of: &dyn Fn(usize, usize) -> f64| {
         let pixel = |cell: usize| std::array::from_fn(|c| of(cell, if outcome.results == 1 { 0 } else { c }) as f32);
         Image {

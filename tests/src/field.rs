@@ -1,7 +1,9 @@
 //! Synthetic photons: Poisson fields on flat patches and spheres, whose estimates are known without any tracing.
 
-use glam::{DAffine3, DQuat, DVec3};
-use photonlab_gather::{AreaModel, Bandwidth, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use photonlab_gather::{
+    Bandwidth, Estimate, Estimator, GatherPoint, Inside, Kernel, PhotonMap, Scratch, Surroundings, Tests,
+};
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::Replicates;
 use photonlab_photometry::{PackedDirection, PathClass, Photon};
@@ -62,24 +64,64 @@ impl Field {
         });
     }
 
+    /// Multiplies every photon's flux by a factor of its place: uneven irradiance from an even field.
+    pub fn shaded(mut self, factor: impl Fn(DVec3) -> f64) -> Self {
+        let back = self.frame.inverse();
+        for (position, photon) in self.positions.iter().zip(&mut self.photons) {
+            photon.flux[0] *= factor(back.transform_point3(DVec3::from(position.map(f64::from)))) as f32;
+        }
+        self
+    }
+
     /// Builds the map and gathers at points with their normals.
     pub fn gather<const N: usize>(
         self,
         at: [(DVec3, DVec3); N],
         bandwidth: Bandwidth,
-        area: AreaModel,
+        estimator: impl Into<Estimator>,
         tests: &Tests,
     ) -> [Estimate<1>; N] {
-        let frame = self.frame;
+        self.gather_among(at, bandwidth, estimator, tests, |_, _| None)
+    }
+
+    /// The same where `inside` tells what of the surface a ball around a query, told by its number, holds.
+    pub fn gather_among<const N: usize>(
+        self,
+        at: [(DVec3, DVec3); N],
+        bandwidth: Bandwidth,
+        estimator: impl Into<Estimator>,
+        tests: &Tests,
+        inside: impl Fn(usize, f64) -> Option<Inside>,
+    ) -> [Estimate<1>; N] {
+        let (frame, estimator) = (self.frame, estimator.into());
         let map = PhotonMap::build(self.positions, self.photons, SplitRule::Median).expect("finite photons");
         let mut scratch = Scratch::default();
+        let mut query = 0;
         at.map(|(position, normal)| {
+            let around = Around { frame, inside: |radius| inside(query, radius) };
             let point = GatherPoint {
                 position: frame.transform_point3(position).as_vec3().to_array(),
                 normal: frame.transform_vector3(normal).as_vec3().to_array(),
             };
-            map.gather(&point, bandwidth, area, tests, &mut scratch)
+            let estimate = map.gather_among(&point, bandwidth, estimator, tests, &around, &mut scratch);
+            query += 1;
+            estimate
         })
+    }
+}
+
+/// The surface around a query, turned as the field is.
+struct Around<F> {
+    frame: DAffine3,
+    inside: F,
+}
+
+impl<P, F: Fn(f64) -> Option<Inside>> Surroundings<P> for Around<F> {
+    fn inside(&self, radius: f64, _: Kernel) -> Option<Inside> {
+        let Inside { area, first, second } = (self.inside)(radius)?;
+        let turn = self.frame.matrix3;
+        let second = turn * DMat3::from_cols_array_2d(&second) * turn.transpose();
+        Some(Inside { area, first: (turn * DVec3::from(first)).to_array(), second: second.to_cols_array_2d() })
     }
 }
 

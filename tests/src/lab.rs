@@ -5,7 +5,7 @@ use std::{
     time::Duration,
 };
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
@@ -143,7 +143,14 @@ impl Lab {
 
 /// A method's settings as the command sets them when nothing else is asked for.
 pub fn settings(method: Method, seed: u64) -> Settings {
-    Settings { method, direct: Direct::Sampled, area: AreaModel::Disc, gather_rays: 1, seed, limits: Limits::default() }
+    Settings {
+        method,
+        direct: Direct::Sampled,
+        estimator: Estimator::default(),
+        gather_rays: 1,
+        seed,
+        limits: Limits::default(),
+    }
 }
 
 /// The path of one of the project's scenes.

@@ -127,8 +127,9 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         ("--target-error 0%", "above 0"),
         ("--confidence 1", "below 1"),
         ("--cache", "not built yet"),
-        ("--kernel cone", "not built yet"),
-        ("--area clipped", "not built yet"),
+        ("--method path --kernel cone", "--kernel is not used by the method path"),
+        ("--kernel triweight", "[possible values: disc, cone, epanechnikov, biweight, gaussian]"),
+        ("--method final-gather --area clipped", "--area is not used by the method final-gather"),
         ("--device gpu", "not built yet"),
     ] {
         fails(&program, &format!("measure {cube} {options}"), 2, &[word]);

@@ -3,13 +3,14 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimate, GatherPoint, PhotonMap, Scratch, Tests};
-use photonlab_photometry::{Colour, Photon};
+use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimator, Kernel, PhotonMap, Scratch, Tests};
+use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, Ray, SurfacePoint, World};
 
 use crate::{
-    EyeLimits, InScattering, Light, Start, VolumeMaps, collision::around_lamp_in_medium, segment, segment::Emitted,
+    EyeLimits, InScattering, Light, Place, Start, VolumeMaps, collision::around_lamp_in_medium, segment,
+    segment::Emitted,
 };
 
 /// Bounces without a map after which roulette decides whether a walk goes on.
@@ -40,6 +41,8 @@ pub struct GatherMaps<'m, const C: usize> {
     pub caustic: Option<MapWithRadius<'m, PhotonMap<C>>>,
     /// Photons in media; `None` if no medium scatters.
     pub volume: Option<VolumeMaps<'m, C>>,
+    /// How photons on surfaces are weighed.
+    pub kernel: Kernel,
 }
 
 /// Final gather over maps, or path tracing without.
@@ -177,10 +180,10 @@ impl<const C: usize> Gatherer<'_, C> {
 
     /// Caustic light, straight from its map.
     fn caustics_at(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, scratch: &mut Scratch) -> Light<C> {
-        let Some(caustic) = self.maps.and_then(|maps| maps.caustic) else {
+        let Some((maps, caustic)) = self.maps.and_then(|maps| Some((maps, maps.caustic?))) else {
             return Light::default();
         };
-        let mut light = self.read(&caustic, at, sight, used, scratch);
+        let mut light = self.read((&caustic, maps.kernel), at, sight, used, scratch);
         if light.photons > 0.0 && self.world.ball_leaves_surface(at, CHECK * caustic.radius) {
             light.unresolved = light.irradiance;
         }
@@ -198,15 +201,16 @@ impl<const C: usize> Gatherer<'_, C> {
         used: u32,
         scratch: &mut Scratch,
     ) -> Option<Light<C>> {
-        let surface = self.maps?.surface?;
+        let maps = self.maps?;
+        let surface = maps.surface?;
         let near =
             distance < 2.0 * surface.radius || self.world.ball_leaves_surface(&hit.point, CHECK * surface.radius);
-        (!near).then(|| self.read(&surface, &hit.point, sight, used, scratch))
+        (!near).then(|| self.read((&surface, maps.kernel), &hit.point, sight, used, scratch))
     }
 
     fn read(
         &self,
-        source: &MapWithRadius<'_, PhotonMap<C>>,
+        (source, kernel): (&MapWithRadius<'_, PhotonMap<C>>, Kernel),
         at: &SurfacePoint,
         sight: &Sight<C>,
         used: u32,
@@ -215,38 +219,17 @@ impl<const C: usize> Gatherer<'_, C> {
         let tests =
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let bandwidth = Bandwidth::Radius(source.radius);
-        let estimate = estimate(source.map, self.world, at, sight, bandwidth, AreaModel::Disc, &tests, scratch);
+        // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
+        let estimator = Estimator { kernel, area: AreaModel::Disc };
+        let place = Place { world: self.world, optics: self.optics, at, sight };
+        let estimate = place.estimate(source.map, bandwidth, estimator, &tests, scratch);
         Light {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
+            noise: 0.0,
             unresolved: Colour::ZERO,
             photons: estimate.photons as f64,
             reads: 1.0,
         }
-    }
-}
-
-/// The density estimate of what is seen at a surface point.
-#[expect(clippy::too_many_arguments, reason = "where, what and how: each is a thing of its own")]
-pub fn estimate<const C: usize>(
-    map: &PhotonMap<C>,
-    world: &World,
-    at: &SurfacePoint,
-    sight: &Sight<C>,
-    bandwidth: Bandwidth,
-    area: AreaModel,
-    tests: &Tests,
-    scratch: &mut Scratch,
-) -> Estimate<C> {
-    let point =
-        GatherPoint { position: world.stored(at.position), normal: sight.normals.geometric.as_vec3().to_array() };
-    if sight.is_plain() {
-        map.gather(&point, bandwidth, area, tests, scratch)
-    } else {
-        let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
-        let weigh = |photon: &Photon<C>| {
-            sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
-        };
-        map.gather_weighed(&point, bandwidth, area, tests, weigh, scratch)
     }
 }

@@ -133,6 +133,7 @@ impl<const C: usize> Walk<'_, '_, C> {
         let light = Light {
             irradiance: found.radiance,
             bias: found.bias,
+            noise: 0.0,
             unresolved: found.unresolved,
             photons: found.photons as f64,
             reads: 1.0,

@@ -9,10 +9,12 @@ mod collision;
 mod gatherer;
 mod in_scattering;
 mod light;
+mod place;
 mod segment;
 mod stretches;
 
-pub use gatherer::{GatherMaps, Gatherer, MapWithRadius, estimate};
+pub use gatherer::{GatherMaps, Gatherer, MapWithRadius};
 pub use in_scattering::{InScattering, VolumeMaps};
 pub use light::Light;
+pub use place::Place;
 pub use segment::{EyeLimits, Landing, Start, follow};

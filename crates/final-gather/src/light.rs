@@ -9,6 +9,9 @@ pub struct Light<const C: usize> {
     pub irradiance: Colour<C>,
     /// Its mean over samples estimates the kernel's bias in `irradiance`.
     pub bias: Colour<C>,
+    /// Variance of the mean over channels of a density estimate at the point itself, were its photons alike and independent:
+    /// what one photon more or less changes. Zero where none was made.
+    pub noise: f64,
     /// The part of `irradiance` that was gathered with a ball reaching over an edge or onto another surface, where
     /// `bias` says nothing.
     pub unresolved: Colour<C>,
@@ -23,6 +26,7 @@ impl<const C: usize> Light<C> {
     pub fn add(&mut self, other: &Self) {
         self.irradiance += other.irradiance;
         self.bias += other.bias;
+        self.noise += other.noise;
         self.unresolved += other.unresolved;
         self.photons += other.photons;
         self.reads += other.reads;
@@ -33,6 +37,7 @@ impl<const C: usize> Light<C> {
         Self {
             irradiance: self.irradiance * weight,
             bias: self.bias * weight,
+            noise: self.noise * weight.max() * weight.max(),
             unresolved: self.unresolved * weight,
             photons: self.photons,
             reads: self.reads,
@@ -44,6 +49,7 @@ impl<const C: usize> Light<C> {
         Self {
             irradiance: palette.develop(self.irradiance),
             bias: palette.develop(self.bias),
+            noise: self.noise,
             unresolved: palette.develop(self.unresolved),
             photons: self.photons,
             reads: self.reads,
@@ -55,6 +61,7 @@ impl<const C: usize> Light<C> {
         Self {
             photons: self.photons / samples,
             reads: self.reads / samples,
+            noise: self.noise / samples,
             ..self.weighted(Colour::splat(1.0 / samples))
         }
     }

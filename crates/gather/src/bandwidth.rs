@@ -1,4 +1,6 @@
-//! How far to gather, what to divide by, and which photons count.
+//! How far to gather, how to weigh, what to divide by, and which photons count.
+
+use crate::Kernel;
 
 /// Which photons an estimate uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,16 +24,45 @@ pub enum AreaModel {
     Disc,
     /// 4 pi r^2, the paper's words taken literally; a quarter of the truth on any flat surface.
     Sphere,
+    /// The surface that is inside the ball, weighed by the kernel: even light is read right up to edges and into corners,
+    /// and a slope is read with a bias of its own size over the radius.
+    Clipped,
+    /// The same with the slope across it fitted and taken out (Walter, Hubbard, Shirley and Greenberg, "Global illumination
+    /// using local linear density estimation", 1997; Jones, "Simple boundary correction for kernel density estimation",
+    /// 1993): light that changes evenly is read right too, with more noise.
+    Linear,
 }
 
 impl AreaModel {
+    /// True if it depends on the surface around the point.
+    pub(crate) fn asks(self) -> bool {
+        matches!(self, AreaModel::Clipped | AreaModel::Linear)
+    }
+
     /// The area in square metres for a squared radius.
     pub fn area(self, radius_squared: f64) -> f64 {
         let disc = std::f64::consts::PI * radius_squared;
         match self {
-            AreaModel::Disc => disc,
+            // What clips the disc is part of each photon's weight.
+            AreaModel::Disc | AreaModel::Clipped | AreaModel::Linear => disc,
             AreaModel::Sphere => 4.0 * disc,
         }
+    }
+}
+
+/// What makes an irradiance of the photons in the ball.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Estimator {
+    /// The weight of each photon.
+    pub kernel: Kernel,
+    /// What their flux is divided by.
+    pub area: AreaModel,
+}
+
+impl From<AreaModel> for Estimator {
+    /// With the disc for a kernel, as the paper has it.
+    fn from(area: AreaModel) -> Self {
+        Self { kernel: Kernel::Disc, area }
     }
 }
 

@@ -6,11 +6,15 @@
 #![forbid(unsafe_code)]
 
 mod bandwidth;
+mod boundary;
 mod estimate;
+mod kernel;
 mod map;
 mod volume;
 
-pub use bandwidth::{AreaModel, Bandwidth, Tests};
+pub use bandwidth::{AreaModel, Bandwidth, Estimator, Tests};
+pub use boundary::{Inside, OpenPlane, Surroundings};
 pub use estimate::Estimate;
-pub use map::{CHECK, GatherPoint, PhotonMap, Scratch};
+pub use kernel::Kernel;
+pub use map::{CHECK, GatherPoint, PhotonMap, SAME_SURFACE, Scratch};
 pub use volume::{Beam, Scattered, VolumeEstimate, VolumeMap};

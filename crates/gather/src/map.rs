@@ -1,12 +1,14 @@
 //! The photon map: photons in a tree, and the density estimates read from it.
 
+use std::f64::consts::PI;
+
 use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
 use photonlab_photometry::{Colour, Photon};
 
-use crate::{AreaModel, Bandwidth, Estimate, Tests};
+use crate::{Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests, boundary::Correction};
 
 /// Cosine of the largest angle between normals that count as one surface.
-const SAME_SURFACE: f32 = 0.5;
+pub const SAME_SURFACE: f32 = 0.5;
 
 /// The ball that checks a fixed radius is this many times wider. The bias is a third of the difference, known with 0.29
 /// of the relative noise 1 / sqrt(n) of the estimate itself; a smaller second ball would know it six times worse.
@@ -59,90 +61,180 @@ impl<const C: usize> PhotonMap<C> {
         &self.tree
     }
 
-    /// Irradiance at a point.
+    /// Irradiance at a point, on a plane without an end for all that the estimate knows.
     pub fn gather(
         &self,
         at: &GatherPoint,
         bandwidth: Bandwidth,
-        area: AreaModel,
+        estimator: impl Into<Estimator>,
         tests: &Tests,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
-        self.gather_weighed(at, bandwidth, area, tests, |_| 1.0, scratch)
+        self.gather_among(at, bandwidth, estimator.into(), tests, &OpenPlane, scratch)
     }
 
-    /// The same with each photon counted by a weight of its own: what passes a coat.
-    pub fn gather_weighed(
+    /// The same among surfaces that the caller knows.
+    pub fn gather_among(
         &self,
         at: &GatherPoint,
         bandwidth: Bandwidth,
-        area: AreaModel,
+        estimator: Estimator,
         tests: &Tests,
-        weigh: impl Fn(&Photon<C>) -> f64,
+        around: &impl Surroundings<Photon<C>>,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         match bandwidth {
-            Bandwidth::Radius(radius) => self.within(at, radius, area, tests, weigh),
-            Bandwidth::Nearest { k, max_radius } => self.nearest(at, (k, max_radius), area, tests, weigh, scratch),
+            Bandwidth::Radius(radius) => self.within(at, radius, estimator, tests, around),
+            Bandwidth::Nearest { k, max_radius } => {
+                self.nearest(at, (k, max_radius), estimator, tests, around, scratch)
+            }
         }
     }
 
-    /// All photons in the closed ball over its area (catalogue A1): unbiased where the irradiance is even.
+    /// All photons in the closed ball over its area (catalogue A1): unbiased where the irradiance is even, with any kernel.
     fn within(
         &self,
         at: &GatherPoint,
         radius: f64,
-        area: AreaModel,
+        estimator: Estimator,
         tests: &Tests,
-        weigh: impl Fn(&Photon<C>) -> f64,
+        around: &impl Surroundings<Photon<C>>,
     ) -> Estimate<C> {
+        let radii = [CHECK * radius, radius];
+        if let Some(corrections) = Correction::pair(estimator, at.normal, radii, around) {
+            return self.within_clipped(at, radius, estimator.kernel, corrections, tests, around);
+        }
         let inside = (radius * radius) as f32;
-        let (mut ball, mut ring, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
+        let (mut ball, mut ring, mut weighed, mut photons) = (Colour::ZERO, Colour::ZERO, Colour::ZERO, 0);
         self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
             let photon = &self.tree.payloads()[index];
             if counts(photon, at, tests) {
-                let flux = photon.flux() * weigh(photon);
+                let flux = photon.flux() * around.weigh(photon);
                 if distance_squared <= inside {
                     photons += 1;
                     ball += flux;
+                    weighed += flux * estimator.kernel.weight(f64::from(distance_squared / inside));
                 } else {
                     ring += flux;
                 }
             }
         });
-        let per_area = 1.0 / area.area(radius * radius);
-        let irradiance = ball * per_area;
+        let per_area = 1.0 / estimator.area.area(radius * radius);
         let wider = (ball + ring) * (per_area / (CHECK * CHECK));
-        let bias = (wider - irradiance) * (1.0 / (CHECK * CHECK - 1.0));
+        let bias_of_disc = (wider - ball * per_area) * (1.0 / (CHECK * CHECK - 1.0));
+        let bias = bias_of_disc * bias_over_disc(estimator.kernel);
+        Estimate { irradiance: weighed * per_area, bias, photons, radius }
+    }
+
+    /// The same where the surface does not fill the disc. The bias is what it would be if it grew with the radius squared.
+    fn within_clipped(
+        &self,
+        at: &GatherPoint,
+        radius: f64,
+        kernel: Kernel,
+        [of_wide, of_ball]: [Correction; 2],
+        tests: &Tests,
+        around: &impl Surroundings<Photon<C>>,
+    ) -> Estimate<C> {
+        let inside = (radius * radius) as f32;
+        let (mut ball, mut wide, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
+        self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
+            let photon = &self.tree.payloads()[index];
+            if counts(photon, at, tests) {
+                let flux = photon.flux() * around.weigh(photon);
+                let offset = self.offset(index, at, radius);
+                let rho_squared = f64::from(distance_squared / inside);
+                if distance_squared <= inside {
+                    photons += 1;
+                    ball += flux * (kernel.weight(rho_squared) * of_ball.at(offset));
+                }
+                let in_wide = kernel.weight((rho_squared / (CHECK * CHECK)).min(1.0));
+                wide += flux * (in_wide * of_wide.at(offset.map(|x| x / CHECK)));
+            }
+        });
+        let per_area = 1.0 / (PI * radius * radius);
+        let irradiance = ball * per_area;
+        let bias = (wide * (per_area / (CHECK * CHECK)) - irradiance) * (1.0 / (CHECK * CHECK - 1.0));
         Estimate { irradiance, bias, photons, radius }
+    }
+
+    /// A photon's offset from a point, in radii.
+    fn offset(&self, index: usize, at: &GatherPoint, radius: f64) -> [f64; 3] {
+        let point = self.tree.point(index);
+        std::array::from_fn(|axis| f64::from(point[axis] - at.position[axis]) / radius)
     }
 
     /// The k nearest: the flux of the k - 1 nearest over the area of the k-th one's radius (catalogue A2), unbiased where
     /// the irradiance is even. With fewer than k within a finite largest radius, all of them over that radius' area (A6).
+    /// Given that radius the others lie evenly in its disc, so that this holds with any kernel, and no other factor is due:
+    /// one that vanishes at the rim gives the k-th no weight anyhow (A5; Garcia, Urena and Sbert, "Description and solution
+    /// of an unreported intrinsic bias in photon mapping density estimation with constant kernel", 2012).
     fn nearest(
         &self,
         at: &GatherPoint,
         (k, max_radius): (usize, f64),
-        area: AreaModel,
+        estimator: Estimator,
         tests: &Tests,
-        weigh: impl Fn(&Photon<C>) -> f64,
+        around: &impl Surroundings<Photon<C>>,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
-        let flux = |index: usize| {
-            let photon = &self.tree.payloads()[index];
-            photon.flux() * weigh(photon)
-        };
         let found = &mut scratch.found;
         self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
-            return sum(found, max_radius * max_radius, max_radius, area, flux);
+            return self.sum(at, found, max_radius * max_radius, estimator, around);
         }
         let Some(last) = found.pop().filter(|last| last.distance_squared > 0.0) else {
             return Estimate::nothing(0.0);
         };
-        let radius_squared = f64::from(last.distance_squared);
-        sum(found, radius_squared, radius_squared.sqrt(), area, flux)
+        self.sum(at, found, f64::from(last.distance_squared), estimator, around)
+    }
+
+    /// The flux of the photons found over the area of a radius.
+    fn sum(
+        &self,
+        at: &GatherPoint,
+        found: &Neighbours,
+        radius_squared: f64,
+        estimator: Estimator,
+        around: &impl Surroundings<Photon<C>>,
+    ) -> Estimate<C> {
+        let flux = |index: usize| {
+            let photon = &self.tree.payloads()[index];
+            photon.flux() * around.weigh(photon)
+        };
+        let (radius, half, kernel) = (radius_squared.sqrt(), 0.5 * radius_squared, estimator.kernel);
+        let per_area = 1.0 / estimator.area.area(radius_squared);
+        let photons = found.len();
+        // The inner half of the area has half the bias, so twice the difference is the whole.
+        let bias = |all: Colour<C>, inner: Colour<C>| (all * per_area - inner * (2.0 * per_area)) * 2.0;
+        let (mut all, mut inner, mut weighed) = (Colour::ZERO, Colour::ZERO, Colour::ZERO);
+        let radii = [radius, half.sqrt()];
+        if let Some([of_ball, of_inner]) = Correction::pair(estimator, at.normal, radii, around) {
+            for neighbour in found.iter() {
+                let distance_squared = f64::from(neighbour.distance_squared);
+                let flux = flux(neighbour.index);
+                all += flux
+                    * (kernel.weight(distance_squared / radius_squared)
+                        * of_ball.at(self.offset(neighbour.index, at, radii[0])));
+                if distance_squared <= half {
+                    inner += flux
+                        * (kernel.weight(distance_squared / half)
+                            * of_inner.at(self.offset(neighbour.index, at, radii[1])));
+                }
+            }
+            return Estimate { irradiance: all * per_area, bias: bias(all, inner), photons, radius };
+        }
+        for neighbour in found.iter() {
+            let flux = flux(neighbour.index);
+            let distance_squared = f64::from(neighbour.distance_squared);
+            all += flux;
+            weighed += flux * kernel.weight(distance_squared / radius_squared);
+            if distance_squared <= half {
+                inner += flux;
+            }
+        }
+        Estimate { irradiance: weighed * per_area, bias: bias(all, inner) * bias_over_disc(kernel), photons, radius }
     }
 
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
@@ -173,27 +265,10 @@ impl<const C: usize> PhotonMap<C> {
     }
 }
 
-/// Flux of photons, their indices and squared distances given, over the area of a radius.
-fn sum<const C: usize>(
-    found: &Neighbours,
-    radius_squared: f64,
-    radius: f64,
-    area: AreaModel,
-    flux: impl Fn(usize) -> Colour<C>,
-) -> Estimate<C> {
-    let half = 0.5 * radius_squared;
-    let (mut all, mut inner) = (Colour::ZERO, Colour::ZERO);
-    for neighbour in found.iter() {
-        let flux = flux(neighbour.index);
-        all += flux;
-        if f64::from(neighbour.distance_squared) <= half {
-            inner += flux;
-        }
-    }
-    let per_area = 1.0 / area.area(radius_squared);
-    // The inner half of the area has half the bias, so twice the difference is the whole.
-    let bias = (all * per_area - inner * (2.0 * per_area)) * 2.0;
-    Estimate { irradiance: all * per_area, bias, photons: found.len(), radius }
+/// The bias of a kernel where the irradiance is smooth, over that of the disc with the same radius. Discs tell it with less
+/// noise than the kernel itself would, whose photons near the rim say little.
+fn bias_over_disc(kernel: Kernel) -> f64 {
+    kernel.second_moment() / Kernel::Disc.second_moment()
 }
 
 fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -> bool {

@@ -5,6 +5,7 @@
 //! says so.
 #![forbid(unsafe_code)]
 
+mod adaptive;
 mod bins;
 mod cells;
 mod checked_file;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Start, estimate, follow};
+use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Start, follow};
 use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
@@ -45,13 +45,14 @@ impl<const C: usize> Look<'_, C> {
         std::array::from_fn(|_| stream.next())
     }
 
-    /// Sample `sample` of cell `number`.
+    /// Sample `sample` of cell `number`, which reads a map with a fixed `radius`, if at all.
     pub(crate) fn sample(
         &self,
         cell: &Cell,
         number: usize,
         sample: u64,
         shift: &[f64; lattice::DIMENSIONS],
+        radius: f64,
         scratch: &mut Scratch,
     ) -> Sample<C> {
         let rays = u64::from(self.settings.gather_rays);
@@ -65,7 +66,7 @@ impl<const C: usize> Look<'_, C> {
                 let share = self.shares[number];
                 let surrounding = self.world.scene.sensors[cell.sensor].medium;
                 let medium = self.world.medium_beside(point.primitive, true, surrounding);
-                let seed = Seed { first, sample, shift, share };
+                let seed = Seed { first, sample, shift, share, radius };
                 return Sample {
                     light: self.irradiance(&point, Sight::meter(point.normal, medium), 0, seed, scratch),
                     dark: false,
@@ -89,7 +90,7 @@ impl<const C: usize> Look<'_, C> {
         let emitted = light.irradiance;
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {
-            let seed = Seed { first, sample, shift, share: 0.0 };
+            let seed = Seed { first, sample, shift, share: 0.0, radius };
             let found = self.irradiance(&hit.point, sight, landing.segments, seed, scratch);
             light.add(&found.weighted(sight.factor * weight * (1.0 / PI)));
         }
@@ -103,7 +104,7 @@ impl<const C: usize> Look<'_, C> {
         match (self.settings.method, self.maps.volume_maps()) {
             (Method::Path | Method::Bins, _) | (_, None) => InScattering::ByPaths,
             (Method::FinalGather { .. }, Some(maps)) => InScattering::ByLook(maps),
-            (Method::Nearest { .. } | Method::Radius { .. }, Some(maps)) => {
+            (Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive, Some(maps)) => {
                 InScattering::FromMap { map: maps.all, draws_lamps }
             }
         }
@@ -159,8 +160,8 @@ impl<const C: usize> Look<'_, C> {
                     gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch)
                 }
                 Method::Bins => Light::default(),
-                Method::Nearest { .. } | Method::Radius { .. } => {
-                    let mut one = self.read_map(at, &sight, used, scratch);
+                Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
+                    let mut one = self.read_map(at, &sight, used, seed.radius, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
                         let direct = sample_direct(self.world, self.optics, at, &sight, xi);
@@ -177,28 +178,33 @@ impl<const C: usize> Look<'_, C> {
     }
 
     /// The density estimate at the point itself.
-    fn read_map(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, scratch: &mut Scratch) -> Light<C> {
+    fn read_map(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, radius: f64, scratch: &mut Scratch) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };
         let bandwidth = match self.settings.method {
             Method::Nearest { k } => Bandwidth::Nearest { k, max_radius: f64::INFINITY },
-            _ => Bandwidth::Radius(self.maps.surface_radius),
+            _ => Bandwidth::Radius(radius),
         };
         let tests = Tests {
             max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
             ..Tests::default()
         };
-        let found = estimate(map, self.world, at, sight, bandwidth, self.settings.area, &tests, scratch);
+        let place = Place { world: self.world, optics: self.optics, at, sight };
+        let found = place.estimate(map, bandwidth, self.settings.estimator, &tests, scratch);
         let reach = match bandwidth {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,
         };
         let unresolved = found.photons > 0 && self.world.ball_leaves_surface(at, reach);
+        let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
+        let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
         Light {
             irradiance: found.irradiance,
             bias: found.bias,
-            unresolved: if unresolved { found.irradiance } else { Colour::ZERO },
+            noise: brightness * brightness * counted,
+            // A linear fit may read less than nothing, which is no less uncertain.
+            unresolved: if unresolved { found.irradiance.map(f64::abs) } else { Colour::ZERO },
             photons: found.photons as f64,
             reads: 1.0,
         }
@@ -212,4 +218,6 @@ struct Seed<'s> {
     shift: &'s [f64; lattice::DIMENSIONS],
     /// See [`Look::shares`].
     share: f64,
+    /// With which a map is read, metres.
+    radius: f64,
 }

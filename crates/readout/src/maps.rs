@@ -1,7 +1,7 @@
 //! The photons of one pass and the maps made of them.
 
 use photonlab_final_gather::{GatherMaps, MapWithRadius, VolumeMaps};
-use photonlab_gather::{PhotonMap, Scratch, VolumeMap};
+use photonlab_gather::{Kernel, PhotonMap, Scratch, VolumeMap};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon, VolumePhoton};
 use photonlab_sampling::{EmissionPlan, Optics};
@@ -15,6 +15,9 @@ use crate::{Method, ReadError, Settings};
 const FINAL_GATHER_COUNT: usize = 16;
 /// The same where the map is read at the point itself.
 const DIRECT_VIEW_COUNT: usize = 50;
+/// The same where each cell goes on to find a radius of its own: the bias of a wide ball is seen better than that of a
+/// narrow one.
+const FIRST_COUNT: usize = 200;
 /// The same in the caustic map.
 const CAUSTIC_COUNT: usize = 32;
 /// Photons that a cylinder around a gather ray holds on average along a free path: fewer still, for the bias and the cost of a
@@ -76,6 +79,7 @@ pub(crate) struct PassMaps<const C: usize> {
     volume_radius: f64,
     volume_caustic: Option<VolumeMap<C>>,
     volume_caustic_radius: f64,
+    kernel: Kernel,
 }
 
 /// Radii of the first pass, from which those of all others follow.
@@ -98,6 +102,7 @@ impl<const C: usize> PassMaps<C> {
             volume_radius: 0.0,
             volume_caustic: None,
             volume_caustic_radius: 0.0,
+            kernel: Kernel::Disc,
         }
     }
 
@@ -123,9 +128,13 @@ impl<const C: usize> PassMaps<C> {
             .transpose()?;
         let fixed = match settings.method {
             Method::Radius { radius } | Method::FinalGather { radius } => radius,
-            Method::Nearest { .. } | Method::Path | Method::Bins => None,
+            Method::Nearest { .. } | Method::Adaptive | Method::Path | Method::Bins => None,
         };
-        let count = if final_gather { FINAL_GATHER_COUNT } else { DIRECT_VIEW_COUNT };
+        let count = match settings.method {
+            Method::FinalGather { .. } => FINAL_GATHER_COUNT,
+            Method::Adaptive => FIRST_COUNT,
+            Method::Nearest { .. } | Method::Radius { .. } | Method::Path | Method::Bins => DIRECT_VIEW_COUNT,
+        };
         let shrink = f64::from(pass + 1).powf(-SHRINK);
         let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {
             (Some(radius), _) => radius,
@@ -146,7 +155,7 @@ impl<const C: usize> PassMaps<C> {
         let count = match settings.method {
             Method::Nearest { k } => k,
             Method::FinalGather { .. } => BEAM_COUNT,
-            Method::Radius { .. } | Method::Path | Method::Bins => DIRECT_VIEW_COUNT,
+            Method::Radius { .. } | Method::Adaptive | Method::Path | Method::Bins => DIRECT_VIEW_COUNT,
         };
         let radius = |map: &Option<VolumeMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {
             (Some(radius), _) => radius,
@@ -164,6 +173,7 @@ impl<const C: usize> PassMaps<C> {
             volume_radius,
             volume_caustic,
             volume_caustic_radius,
+            kernel: settings.estimator.kernel,
         })
     }
 
@@ -179,6 +189,7 @@ impl<const C: usize> PassMaps<C> {
             surface: self.surface.as_ref().map(|map| MapWithRadius { map, radius: self.surface_radius }),
             caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius }),
             volume: self.volume_maps(),
+            kernel: self.kernel,
         }
     }
 }

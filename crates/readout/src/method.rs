@@ -1,6 +1,6 @@
 //! What to do: the method and its settings.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_trace::{Classes, Limits};
 
 /// How light at a diffuse point is found.
@@ -16,6 +16,9 @@ pub enum Method {
         /// Metres; `None` takes it from the photons of the first pass and lets it shrink from pass to pass.
         radius: Option<f64>,
     },
+    /// From the map at the point: all photons in a ball whose radius each cell finds for itself, from the bias and noise of
+    /// earlier passes.
+    Adaptive,
     /// By looking around once and gathering where the rays land.
     FinalGather {
         /// Metres; `None` as for [`Method::Radius`].
@@ -28,11 +31,20 @@ pub enum Method {
 }
 
 impl Method {
+    /// True if the map is read at the point itself.
+    pub(crate) fn is_direct_view(&self) -> bool {
+        match self {
+            Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => true,
+            Method::FinalGather { .. } | Method::Path | Method::Bins => false,
+        }
+    }
+
     /// The method's name on the command line and in results.
     pub fn name(&self) -> &'static str {
         match self {
             Method::Nearest { .. } => "nearest",
             Method::Radius { .. } => "radius",
+            Method::Adaptive => "adaptive",
             Method::FinalGather { .. } => "final-gather",
             Method::Path => "path",
             Method::Bins => "bins",
@@ -57,8 +69,9 @@ pub struct Settings {
     pub method: Method,
     /// Where direct light comes from (map methods alone).
     pub direct: Direct,
-    /// What gathered flux is divided by (map methods alone).
-    pub area: AreaModel,
+    /// How gathered photons are weighed and what their flux is divided by (map methods alone; final gather uses its kernel
+    /// and divides by the disc).
+    pub estimator: Estimator,
     /// Rays per gather point.
     pub gather_rays: u32,
     /// The run's seed.

@@ -74,7 +74,7 @@ impl<const C: usize> CellResult<C> {
 
     /// Share of the value that was gathered across an edge or onto another surface.
     pub fn unresolved_share(&self, channel: usize) -> f64 {
-        let value = self.value[channel].mean().unwrap_or(0.0);
+        let value = self.value[channel].mean().unwrap_or(0.0).abs();
         if value == 0.0 { 0.0 } else { self.unresolved[channel].mean().unwrap_or(0.0) / value }
     }
 }

@@ -3,16 +3,20 @@
 use photonlab_measure::Stopped;
 use photonlab_trace::Ledger;
 
-use crate::{CellResult, Method, Outcome, Session, maps::Radii};
+use crate::{CellResult, Method, Outcome, Session, adaptive::CellRadius, maps::Radii};
 
 /// What the passes so far have found.
 pub(crate) struct Run<const C: usize> {
     pub(crate) cells: Vec<CellResult<C>>,
     pub(crate) ledger: Option<Ledger<C>>,
     pub(crate) radii: Radii,
+    /// Each cell's own radius, for [`Method::Adaptive`].
+    pub(crate) of_cells: Vec<CellRadius>,
     pub(crate) radius: f64,
     pub(crate) photons: u64,
     pub(crate) passes: u64,
+    /// Passes before the first that counts.
+    pub(crate) pilots: u64,
     pub(crate) samples: u64,
     pub(crate) out_of_reach: bool,
 }
@@ -23,9 +27,11 @@ impl<const C: usize> Run<C> {
             cells: vec![CellResult::default(); cells],
             ledger: None,
             radii: Radii::default(),
+            of_cells: vec![CellRadius::default(); cells],
             radius: 0.0,
             photons: 0,
             passes: 0,
+            pilots: 0,
             samples: 0,
             out_of_reach: false,
         }
@@ -41,14 +47,14 @@ impl<const C: usize> Run<C> {
 
     pub(crate) fn finish(self, session: &Session<'_, C>, stopped: Stopped) -> Outcome<C> {
         let per_pass = 1.0 / self.passes as f64;
-        let has_radius = !matches!(session.settings.method, Method::Nearest { .. } | Method::Path | Method::Bins);
+        let has_radius = matches!(session.settings.method, Method::Radius { .. } | Method::FinalGather { .. });
         let optics = session.optics.any();
         Outcome {
             ledger: self.ledger.map(|ledger| ledger.scaled(per_pass)),
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
             cells: self.cells,
             photons: self.photons,
-            passes: self.passes,
+            passes: self.passes + self.pilots,
             samples: self.samples,
             stopped,
             lamp_flux: optics.palette.develop(optics.lamps.total_flux()),

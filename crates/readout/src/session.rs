@@ -97,7 +97,7 @@ pub struct Session<'w, const C: usize> {
 impl<const C: usize> Session<'_, C> {
     /// What the method asks of the schedule.
     pub fn demands(&self) -> Demands {
-        let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
+        let from_map = self.settings.method.is_direct_view();
         Demands {
             gather_rays: self.settings.gather_rays,
             fewest_photons: if self.uses_maps() || self.settings.method == Method::Bins {
@@ -116,7 +116,7 @@ impl<const C: usize> Session<'_, C> {
         match self.settings.method {
             Method::Path | Method::Bins => false,
             Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic || self.needs.in_scattering,
-            Method::Nearest { .. } | Method::Radius { .. } => {
+            Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
                 self.settings.classes().direct || self.needs.indirect || self.needs.caustic
             }
         }
@@ -139,11 +139,8 @@ impl<const C: usize> Session<'_, C> {
         let start = Instant::now();
         self.check_steady()?;
         let schedule = &self.fit_into_time(cells, schedule, source, start)?;
-        let mut run = Run::new(cells.len());
-        let passes = match source {
-            Source::Trace => schedule.ends.passes,
-            Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),
-        };
+        let mut run = self.begin(cells, schedule, source)?;
+        let passes = passes_at_hand(schedule, source).map(|passes| passes - run.pilots);
         let mut next_look = PASSES_BEFORE_STOPPING;
         let mut longest = Duration::ZERO;
         loop {
@@ -176,6 +173,21 @@ impl<const C: usize> Session<'_, C> {
         }
     }
 
+    /// An empty run; where cells find radii for themselves, after a pass that serves nothing else, because a mean is long in
+    /// forgetting passes that were read with a wrong radius. Its photons are part of those asked for; one pass alone has none
+    /// to spare.
+    fn begin(&self, cells: &[Cell], schedule: &Schedule, source: &Source<'_, C>) -> Result<Run<C>, ReadError> {
+        let run = Run::new(cells.len());
+        let single = passes_at_hand(schedule, source).is_some_and(|passes| passes < 2);
+        if self.settings.method != Method::Adaptive || single {
+            return Ok(run);
+        }
+        let mut pilot = Run::new(cells.len());
+        self.pass(&mut pilot, cells, schedule, source)?;
+        let Run { of_cells, radii, photons, samples, .. } = pilot;
+        Ok(Run { of_cells, radii, photons, samples, pilots: 1, ..run })
+    }
+
     /// Follows some photons where a medium loses no light: one without an end would hold a ray from an eye for ever, and only
     /// photons can say so.
     fn check_steady(&self) -> Result<(), ReadError> {
@@ -194,7 +206,7 @@ impl<const C: usize> Session<'_, C> {
         let shrinks = match self.settings.method {
             Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
             Method::Nearest { .. } => false,
-            Method::Path | Method::Bins => true,
+            Method::Adaptive | Method::Path | Method::Bins => true,
         };
         // What shrinks is given more passes before it is given up.
         let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
@@ -239,7 +251,7 @@ impl<const C: usize> Session<'_, C> {
         schedule: &Schedule,
         source: &Source<'_, C>,
     ) -> Result<(), ReadError> {
-        let number = run.passes;
+        let number = run.passes + run.pilots;
         if self.settings.method == Method::Bins {
             return self.count(run, cells, schedule);
         }
@@ -257,6 +269,7 @@ impl<const C: usize> Session<'_, C> {
             samples,
             shares: &shares,
         };
+        let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(maps.surface_radius)).collect();
         let blocks = samples.div_ceil(BLOCK);
         let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
             .into_par_iter()
@@ -265,7 +278,7 @@ impl<const C: usize> Session<'_, C> {
                 let shift = look.shift(number);
                 let mut sum = Sample { light: Light::default(), dark: true };
                 for sample in block * BLOCK..((block + 1) * BLOCK).min(samples) {
-                    let one = look.sample(&cells[number], number, sample, &shift, scratch);
+                    let one = look.sample(&cells[number], number, sample, &shift, radii[number], scratch);
                     sum.light.add(&one.light);
                     sum.dark &= one.dark;
                 }
@@ -277,6 +290,9 @@ impl<const C: usize> Session<'_, C> {
             let mut light = Light::default();
             parts.iter().for_each(|part| light.add(&part.light));
             let mut mean = light.over(samples as f64);
+            if self.settings.method == Method::Adaptive {
+                run.of_cells[index].learn(&mean, radii[index], number + 1, self.largest_radius());
+            }
             mean.irradiance += probed;
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
             let mean = mean.developed(&optics.palette);
@@ -306,10 +322,15 @@ impl<const C: usize> Session<'_, C> {
         Ok(())
     }
 
+    /// No radius grows beyond this, metres: a quarter of the scene.
+    fn largest_radius(&self) -> f64 {
+        let (low, high) = self.world.bounds();
+        0.25 * (high - low).max_element()
+    }
+
     /// What rays from point lamps add to each cell, where direct light is sampled.
     fn probes(&self, cells: &[Cell], optics: &Optics<C>, pass: u32, points: u64) -> Vec<Colour<C>> {
-        let from_map = matches!(self.settings.method, Method::Nearest { .. } | Method::Radius { .. });
-        if from_map && self.settings.direct == Direct::Photons {
+        if self.settings.method.is_direct_view() && self.settings.direct == Direct::Photons {
             return vec![Colour::ZERO; cells.len()];
         }
         let of_sensors = cells.chunk_by(|a, b| a.sensor == b.sensor);
@@ -345,5 +366,13 @@ impl<const C: usize> Session<'_, C> {
         let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
+    }
+}
+
+/// The passes asked for, or as many as a saved map has; `None` if only a target or a clock ends the run.
+fn passes_at_hand<const C: usize>(schedule: &Schedule, source: &Source<'_, C>) -> Option<u64> {
+    match source {
+        Source::Trace => schedule.ends.passes,
+        Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),
     }
 }

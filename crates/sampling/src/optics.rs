@@ -74,6 +74,13 @@ impl<const C: usize> Optics<C> {
         }
     }
 
+    /// True if photons that arrive on a side of a primitive are stored there.
+    pub fn stores(&self, world: &World, primitive: u32, front: bool) -> bool {
+        let coating = &self.coatings[world.primitives[primitive as usize].shape as usize];
+        let side = if front { &coating.front } else { &coating.back };
+        matches!(side, Interaction::Matte(_)) || world.is_metered(primitive)
+    }
+
     /// What happens at a hit to the light that meets the surface, and the share of light that does: what a mask leaves open
     /// goes on as if there were none. Photons are stored before that is drawn, for they have arrived.
     #[inline]

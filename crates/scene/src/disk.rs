@@ -30,6 +30,12 @@ impl Disk {
         Self { around: Parallelogram::new(centre, edge_u, edge_v, front), smallest_radius }
     }
 
+    /// Its radius in metres; `None` for an ellipse.
+    pub(crate) fn circle_radius(&self) -> Option<f64> {
+        let (u, v) = (self.around.edge_u.length(), self.around.edge_v.length());
+        (self.around.is_rectangle() && (u - v).abs() <= 1e-9 * u).then_some(u)
+    }
+
     /// Area in square metres.
     pub fn area(&self) -> f64 {
         0.25 * PI * self.around.area()

@@ -247,6 +247,15 @@ impl World {
         })
     }
 
+    /// True if any primitive that rays notice and that reaches into a closed ball passes the test.
+    pub(crate) fn any_in_ball(&self, position: DVec3, radius: f64, mut test: impl FnMut(u32) -> bool) -> bool {
+        self.accelerator.any_near(position, radius, |index| {
+            !self.inert[index as usize]
+                && self.primitives[index as usize].surface.distance(position) <= radius
+                && test(index)
+        })
+    }
+
     /// True if a surface lies within a closed ball, anything but one that leaves light and media as they are.
     pub fn is_near_surface(&self, position: DVec3, radius: f64) -> bool {
         self.accelerator.any_near(position, radius, |index| {

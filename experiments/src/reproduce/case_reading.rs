@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_measure::{Interval, normal_quantile, student_t_quantile};
 use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
 use photonlab_scene::Emitter;
@@ -182,7 +182,7 @@ fn attempt<const C: usize>(
     let settings = Settings {
         method: way.method(),
         direct: Direct::Sampled,
-        area: AreaModel::Disc,
+        estimator: Estimator::default(),
         gather_rays: 1,
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

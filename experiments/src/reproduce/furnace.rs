@@ -1,6 +1,6 @@
 //! A closed cube whose walls all emit and reflect alike, read as the command reads scenes.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_measure::{Interval, Row};
 use photonlab_photometry::Colour;
 use photonlab_readout::{Cell, Direct, Method, Settings, Wanted};
@@ -62,7 +62,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<Furnac
             let settings = Settings {
                 method,
                 direct: Direct::Photons,
-                area: AreaModel::Disc,
+                estimator: Estimator::default(),
                 gather_rays: 1,
                 seed: p.seed,
                 limits: Limits::default(),

@@ -1,6 +1,6 @@
 //! A slab of scattering medium before a lamp or before nothing, read as the command reads scenes.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_measure::{Axis, Expected, FigureData, Interval, Point, Row, Series, SeriesKind};
 use photonlab_readout::{Cell, Direct, Method, Settings, Target, Wanted};
 use photonlab_reference::{catalogue::Case, medium::slab::Slab, rendering_equation::transmittance};
@@ -77,7 +77,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<SlabRe
     let settings = Settings {
         method: Method::Path,
         direct: Direct::Sampled,
-        area: AreaModel::Disc,
+        estimator: Estimator::default(),
         gather_rays: 1,
         seed: p.seed,
         limits: Limits::default(),

@@ -1,6 +1,6 @@
 //! The strategies that claims compare.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_readout::{Direct, Method, Settings};
 use photonlab_trace::Limits;
 
@@ -60,7 +60,7 @@ impl Strategy {
         Settings {
             method: self.method,
             direct: self.direct,
-            area: AreaModel::Disc,
+            estimator: Estimator::default(),
             gather_rays: 1,
             seed,
             limits: Limits::default(),

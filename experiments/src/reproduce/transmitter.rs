@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use glam::DVec3;
-use photonlab_gather::{AreaModel, Bandwidth, GatherPoint, PhotonMap, Scratch, Tests};
+use photonlab_gather::{AreaModel, Bandwidth, Estimator, GatherPoint, PhotonMap, Scratch, Tests};
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::Replicates;
 use photonlab_photometry::Palette;
@@ -60,7 +60,7 @@ pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<Shee
     let settings = Settings {
         method: Method::Radius { radius: Some(RADIUS) },
         direct: Direct::Photons,
-        area: AreaModel::Disc,
+        estimator: Estimator::default(),
         gather_rays: 1,
         seed: p.seed,
         limits: Limits::default(),

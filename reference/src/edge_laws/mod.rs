@@ -9,12 +9,14 @@ mod concave_corner;
 mod crease;
 mod flat;
 mod half_plane;
+mod moments;
 mod thin_wall;
 
 pub use concave_corner::ConcaveCorner;
 pub use crease::{CreaseReading, crease, right_angle_maximum};
 pub use flat::{corner, rectangle_mean, strip};
 pub use half_plane::{half_plane, half_plane_kernel};
+pub use moments::HalfPlaneMoments;
 pub use thin_wall::{thin_wall, wall_on_floor};
 
 /// Independent areas for the checks, by polar integration: no formula of this module is used.

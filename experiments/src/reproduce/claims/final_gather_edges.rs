@@ -1,6 +1,6 @@
 //! `final-gather-edges`: CUBE's edge and corner meters by the direct view of the map and by final gather.
 
-use photonlab_gather::AreaModel;
+use photonlab_gather::Estimator;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Point, Record, Replicates, Row, Series, SeriesKind, Verdict, sidak_level,
 };
@@ -178,7 +178,7 @@ fn read(
         let settings = Settings {
             method: reader.method,
             direct: reader.direct,
-            area: AreaModel::Disc,
+            estimator: Estimator::default(),
             gather_rays: 1,
             seed,
             limits: Limits::default(),

@@ -1,0 +1,94 @@
+//! A point at which a map is read, and what the scene around it tells the estimate.
+
+use glam::DVec3;
+use photonlab_gather::{
+    Bandwidth, Estimate, Estimator, GatherPoint, Inside, Kernel, PhotonMap, SAME_SURFACE, Scratch, Surroundings, Tests,
+};
+use photonlab_photometry::Photon;
+use photonlab_sampling::{Optics, Sight};
+use photonlab_scene::{Neighbourhood, RadialWeight, SurfacePoint, World};
+
+/// A surface point and what is seen of it.
+#[derive(Clone, Copy)]
+pub struct Place<'w, const C: usize> {
+    /// The scene.
+    pub world: &'w World,
+    /// Its coatings.
+    pub optics: &'w Optics<C>,
+    /// The point.
+    pub at: &'w SurfacePoint,
+    /// The side from which it is seen, and how its coat weighs light.
+    pub sight: &'w Sight<C>,
+}
+
+impl<const C: usize> Place<'_, C> {
+    /// The density estimate of what is seen there.
+    pub fn estimate(
+        &self,
+        map: &PhotonMap<C>,
+        bandwidth: Bandwidth,
+        estimator: Estimator,
+        tests: &Tests,
+        scratch: &mut Scratch,
+    ) -> Estimate<C> {
+        let normal = self.sight.normals.geometric.as_vec3().to_array();
+        let point = GatherPoint { position: self.world.stored(self.at.position), normal };
+        if self.sight.is_plain() {
+            let around = Around { place: self, weigh: |_: &Photon<C>| 1.0 };
+            map.gather_among(&point, bandwidth, estimator, tests, &around, scratch)
+        } else {
+            let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
+            let weigh = |photon: &Photon<C>| {
+                self.sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
+            };
+            map.gather_among(&point, bandwidth, estimator, tests, &Around { place: self, weigh }, scratch)
+        }
+    }
+}
+
+/// The answers to what a map asks.
+struct Around<'p, const C: usize, W> {
+    place: &'p Place<'p, C>,
+    weigh: W,
+}
+
+impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Around<'_, C, W> {
+    fn weigh(&self, photon: &Photon<C>) -> f64 {
+        (self.weigh)(photon)
+    }
+
+    fn inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
+        let Place { world, optics, at, sight } = self.place;
+        if !world.ball_leaves_surface(at, radius) {
+            return None;
+        }
+        let around = Neighbourhood {
+            position: at.position,
+            primitive: at.primitive,
+            normal: sight.normals.geometric,
+            radius,
+            least_cosine: f64::from(SAME_SURFACE),
+        };
+        let stores = |primitive, front| optics.stores(world, primitive, front);
+        let inside = world.surface_inside(&around, &Weight(kernel), stores)?;
+        let second = inside.second.to_cols_array_2d();
+        Some(Inside { area: inside.area, first: inside.first.to_array(), second })
+    }
+}
+
+/// A kernel as the scene's geometry takes it.
+struct Weight(Kernel);
+
+impl RadialWeight for Weight {
+    fn weight(&self, t: f64) -> f64 {
+        self.0.weight(t)
+    }
+
+    fn mass(&self, t: f64) -> f64 {
+        self.0.mass(t)
+    }
+
+    fn second(&self, t: f64) -> f64 {
+        self.0.second(t)
+    }
+}

@@ -1,0 +1,86 @@
+//! The radius of a cell, chosen from what earlier passes have found of its bias and its noise.
+
+use photonlab_final_gather::Light;
+
+/// A radius grows or shrinks by at most this factor from one pass to the next.
+const LARGEST_STEP: f64 = 3.0;
+
+/// One cell's radius and what it rests on.
+///
+/// Where the irradiance is smooth the bias of a density estimate is `b r^2` and its variance `v / r^2`; the mean of `n` passes
+/// has the least mean squared error at `r^6 = v / (2 n b^2)` (Silverman 1986, chapter 4; Kaplanyan and Dachsbacher,
+/// "Adaptive progressive photon mapping", 2013, who estimate `b` by derivatives of a kernel instead of by a
+/// second ball). A pass's radius depends on the photons of earlier passes alone, so that no pass is read with a radius
+/// that its own photons' noise has chosen: choosing the ball that looks best favours bright ones.
+///
+/// What noise there is in `b` makes the radius smaller, not larger; in flat light, where there is nothing but noise, the
+/// radius grows by a third from pass to pass, and with it the certainty about `b`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct CellRadius {
+    /// Metres; `None` before the first pass.
+    radius: Option<f64>,
+    /// Sums over passes of the weight of each, and of it times the pass's `b` and `v`.
+    weight: f64,
+    bend: f64,
+    noise: f64,
+}
+
+impl CellRadius {
+    /// The radius for the next pass, metres; `first` if no pass has been done.
+    pub(crate) fn get(&self, first: f64) -> f64 {
+        self.radius.unwrap_or(first)
+    }
+
+    /// Takes in a pass that was read with `radius`, the last of `passes` so far: as they become more, their mean has less noise
+    /// and deserves a smaller radius, so that noise and bias both go to zero. How many there will be is not asked, since a
+    /// clock may decide that.
+    pub(crate) fn learn<const C: usize>(&mut self, mean: &Light<C>, radius: f64, passes: u64, largest: f64) {
+        let next = if mean.noise > 0.0 {
+            // The variance of a pass's b is proportional to v / r^6.
+            let weight = radius.powi(6);
+            let bias = mean.bias.0.iter().sum::<f64>() / C as f64;
+            self.weight += weight;
+            self.bend += weight * bias / (radius * radius);
+            self.noise += weight * mean.noise * radius * radius;
+            let (b, v) = (self.bend / self.weight, self.noise / self.weight);
+            (v / (2.0 * passes as f64 * b * b)).powf(1.0 / 6.0)
+        } else {
+            // Nothing was found.
+            f64::INFINITY
+        };
+        self.radius = Some(next.clamp(radius / LARGEST_STEP, radius * LARGEST_STEP).min(largest.max(radius)));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use photonlab_photometry::Colour;
+
+    fn found(bias: f64, noise: f64) -> Light<1> {
+        Light { irradiance: Colour([1.0]), bias: Colour([bias]), noise, ..Light::default() }
+    }
+
+    /// With the true bias and variance at every radius the choice stays where the mean squared error is least.
+    #[test]
+    fn it_settles_where_the_mean_squared_error_is_least() {
+        let (b, v, passes) = (3.0, 0.002, 20u64);
+        let error = |r: f64| (b * r * r).powi(2) + v / (r * r * passes as f64);
+        let mut cell = CellRadius::default();
+        for _ in 0..30 {
+            let r = cell.get(0.01);
+            cell.learn(&found(b * r * r, v / (r * r)), r, passes, 10.0);
+        }
+        let r = cell.get(0.01);
+        assert!(error(r) < error(1.01 * r) && error(r) < error(0.99 * r), "{r}");
+    }
+
+    #[test]
+    fn it_grows_where_nothing_is_found_and_stays_in_the_scene() {
+        let mut cell = CellRadius::default();
+        cell.learn(&found(0.0, 0.0), 0.1, 10, 0.7);
+        assert_eq!(cell.get(1.0), 0.1 * LARGEST_STEP);
+        cell.learn(&found(0.0, 1.0), 0.3, 10, 0.7);
+        assert_eq!(cell.get(1.0), 0.7);
+    }
+}
