@@ -24,6 +24,10 @@ const FEWEST_PHOTONS: f64 = 30.0;
 /// A reading of which more than this share was gathered across an edge is not certified.
 const RESOLVED: f64 = 1e-3;
 
+/// A reading whose kernel bias is surely more than this share of it is not certified. The bound is the bias's leading order: on a
+/// round peak (a Gaussian) of this bias it falls short by one per cent of the reading, on sharper ones by many times itself.
+const STRAIGHT: f64 = 0.05;
+
 /// Measures and writes the result to standard output.
 pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {
     let start = Instant::now();
@@ -166,6 +170,14 @@ fn readings<const C: usize>(
                     "{:.2} % of the value was gathered with a ball that reaches over an edge or onto another surface, where \
                      the bias has no bound",
                     100.0 * unresolved
+                ));
+            }
+            let bend = result.bend(channel, t);
+            if bend > STRAIGHT {
+                reading = reading.not_certified(&format!(
+                    "light changes within the ball that it was gathered with: by {:.0} % of the value at least, where the bias has no \
+                     sure bound; more photons make a smaller ball",
+                    100.0 * bend
                 ));
             }
             if result.asked_photons && result.photons < FEWEST_PHOTONS {

@@ -67,6 +67,15 @@ impl<const C: usize> CellResult<C> {
             + MISSING_AT_MOST * self.unresolved[channel].mean().unwrap_or(0.0).abs()
     }
 
+    /// Kernel bias of a channel beyond chance, as a share of the value: what two radii say of it is its leading order, good
+    /// only where it is small. A caustic's peak that is narrower than the ball shows 25 % here and lacks far more.
+    pub fn bend(&self, channel: usize, quantile: f64) -> f64 {
+        let bias = &self.bias[channel];
+        let sure = bias.mean().unwrap_or(0.0).abs() - quantile * bias.std_error().unwrap_or(0.0);
+        let value = self.value[channel].mean().unwrap_or(0.0).abs();
+        if value > 0.0 { sure.max(0.0) / value } else { 0.0 }
+    }
+
     /// Half the interval's length of a channel; `None` below two passes.
     pub fn half_width(&self, channel: usize, confidence: f64) -> Option<f64> {
         Some(self.value[channel].half_width(confidence)? + self.bias_bound(channel, confidence))
