@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 mod colour;
+mod compiled;
 mod curve;
 mod direction;
 mod observer;
@@ -15,6 +16,7 @@ mod rgb_spectrum;
 mod spectrum;
 
 pub use colour::{Channels, Colour, WAVELENGTHS};
+pub use compiled::compiled;
 pub use curve::{Curve, CurveError};
 pub use direction::PackedDirection;
 pub use observer::{PEAK_EFFICACY, SRGB_OF_XYZ, VISIBLE, daylight, matching, sensitivity};

@@ -9,6 +9,7 @@ mod adaptive;
 mod bins;
 mod cells;
 mod checked_file;
+mod compiled;
 mod identity;
 mod lattice;
 mod look;

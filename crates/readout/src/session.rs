@@ -14,6 +14,7 @@ use rayon::prelude::*;
 use crate::{
     Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings,
     bins::Bins,
+    compiled::runner,
     look::{Look, Sample},
     maps::PassMaps,
     probe::{probe, shares},
@@ -130,6 +131,16 @@ impl<const C: usize> Session<'_, C> {
 
     /// Reads all cells.
     pub fn run(
+        &self,
+        cells: &[Cell],
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+        observer: &dyn Observer,
+    ) -> Result<Outcome<C>, ReadError> {
+        runner().run(self, cells, schedule, source, observer)
+    }
+
+    pub(crate) fn run_passes(
         &self,
         cells: &[Cell],
         schedule: &Schedule,

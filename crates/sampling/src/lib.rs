@@ -4,6 +4,7 @@
 //! `pdf_area`), or is weighted so that the density has already been divided out; which of the two is said at each.
 #![forbid(unsafe_code)]
 
+mod compiled;
 mod direct;
 mod enclosure;
 mod environment;

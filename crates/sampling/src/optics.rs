@@ -3,7 +3,9 @@
 use photonlab_photometry::{Colour, Palette};
 use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, World};
 
-use crate::{Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular, Volume};
+use crate::{
+    Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular, Volume, compiled::maker,
+};
 
 /// Lamps and coatings in `C` channels: of a scene, or of one pass where wavelengths are drawn for each.
 #[derive(Clone, Debug)]
@@ -30,6 +32,10 @@ struct Coating<const C: usize> {
 impl<const C: usize> Optics<C> {
     /// Of a scene whose channels the palette fits.
     pub fn new(world: &World, palette: Palette<C>) -> Self {
+        maker().optics(world, palette)
+    }
+
+    pub(crate) fn make(world: &World, palette: Palette<C>) -> Self {
         let coatings = world.scene.shapes.iter().map(|shape| Coating::new(&shape.bsdf, &palette)).collect();
         let volumes = world.scene.media.iter().map(|medium| Volume::new(medium, &palette)).collect();
         Self { lamps: Lamps::new(world, &palette), coatings, volumes, palette }

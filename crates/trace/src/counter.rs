@@ -5,7 +5,7 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::{Hit, World};
 
-use crate::{Classes, Job, Ledger, TraceError, Traced, in_chunks, path};
+use crate::{Classes, Job, Ledger, TraceError, Traced, compiled::tracer, in_chunks, path};
 
 /// Knows the cells in which a photon counts.
 pub trait Counter: Sync {
@@ -29,6 +29,17 @@ pub struct Counted<const C: usize> {
 /// Follows all photons of a plan and counts them in `cells` cells. Nothing is stored: memory does not grow with photons
 /// beyond what a task counts before its sum is taken.
 pub fn count<const C: usize>(
+    world: &World,
+    optics: &Optics<C>,
+    plan: &EmissionPlan<C>,
+    job: &Job,
+    cells: usize,
+    counter: &dyn Counter,
+) -> Result<Counted<C>, TraceError> {
+    tracer().count(world, optics, plan, job, cells, counter)
+}
+
+pub(crate) fn count_all<const C: usize>(
     world: &World,
     optics: &Optics<C>,
     plan: &EmissionPlan<C>,

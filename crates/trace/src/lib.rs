@@ -4,6 +4,7 @@
 //! diffuse surfaces and in media, in arrays whose order depends on the photons' numbers alone, and the [`Ledger`].
 #![forbid(unsafe_code)]
 
+mod compiled;
 mod counter;
 mod ledger;
 mod path;
@@ -17,6 +18,7 @@ use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::World;
 use rayon::prelude::*;
 
+use compiled::tracer;
 use counter::NoCounter;
 
 /// Photons followed by one task; part of nothing that can be read from the result.
@@ -70,6 +72,15 @@ pub struct Job {
 
 /// Follows all photons of a plan.
 pub fn trace<const C: usize>(
+    world: &World,
+    optics: &Optics<C>,
+    plan: &EmissionPlan<C>,
+    job: &Job,
+) -> Result<Traced<C>, TraceError> {
+    tracer().trace(world, optics, plan, job)
+}
+
+fn follow_all<const C: usize>(
     world: &World,
     optics: &Optics<C>,
     plan: &EmissionPlan<C>,

@@ -124,10 +124,19 @@ impl Bench {
         Ok(said)
     }
 
+    /// True if a test needs the command built, which takes most of the time of a build.
+    fn runs_the_program(&self, file: &str) -> bool {
+        let source = self.tree.join("tests/tests").join(file).with_extension("rs");
+        fs::read_to_string(source).is_ok_and(|text| text.contains("photonlab-under-test"))
+    }
+
     fn cargo(&self, file: &str) -> Command {
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
         command.current_dir(&self.tree).env("CARGO_TARGET_DIR", &self.target);
         command.args(["test", "--release", "--quiet", "-p", "photonlab-tests", "--test", file]);
+        if !self.runs_the_program(file) {
+            command.arg("--no-default-features");
+        }
         command
     }
 }
