@@ -180,6 +180,13 @@ fn a_map_that_does_not_fit_is_refused() {
         worse.push(flipped);
     }
     worse.push(std::fs::read(&cube).expect("readable"));
+    // A sound map of an earlier version says so.
+    let mut earlier = good[..good.len() - 16].to_vec();
+    earlier[8..12].copy_from_slice(&1_u32.to_le_bytes());
+    let hash = xxhash_rust::xxh3::xxh3_128(&earlier).to_le_bytes();
+    earlier.extend(hash);
+    program.write("earlier.map", &earlier);
+    fails(&program, &with("earlier.map"), 2, &["earlier.map:", "its version is 1", "build the map again"]);
     for bytes in worse {
         program.write("bad.map", &bytes);
         fails(&program, &with("bad.map"), 2, &["bad.map:", "build the map again"]);

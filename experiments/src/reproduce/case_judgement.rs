@@ -1,10 +1,11 @@
 //! Readings of scenes with known answers against those answers, and how many came out how.
 
-use photonlab_measure::{Comparison, Expected, Interval, Point, Row, Series, normal_quantile};
+use photonlab_measure::{Comparison, Expected, Interval, Row, normal_quantile};
 use photonlab_reference::catalogue::{Case, Entry, Expected as Answer, Reads};
 
 use super::{
-    case_reading::{Attempt, CONFIDENCE, MeterReadings, Rule, Way},
+    case_charts::CaseCharts,
+    case_reading::{Attempt, CONFIDENCE, MeterReadings, Rule},
     context::Findings,
     lab::Lab,
 };
@@ -51,7 +52,7 @@ pub(super) fn compare(
     along: f64,
     found: &mut Findings,
     tally: &mut Tally,
-    series: &mut [Series],
+    charts: &mut CaseCharts,
 ) -> anyhow::Result<()> {
     let id = &lab.world.scene.sensors[meter.cell.sensor].id;
     let answer = case.expected.iter().find(|answer| &answer.sensor == id);
@@ -70,10 +71,7 @@ pub(super) fn compare(
         reading.judge(&meter.reading, channel, found, tally);
         meter.others.iter().for_each(|other| reading.confirm(other, channel, found, tally));
         if let Some(m) = meter.reading.measured[channel].filter(|_| reading.truth > 0.0) {
-            let wanted = |x: f64| (x / reading.truth - 1.0) / meter.precision;
-            let shown = Interval { value: wanted(m.value), low: wanted(m.low), high: wanted(m.high), ..m };
-            let way = Way::ALL.iter().position(|&way| way == meter.reading.way).expect("one of all ways");
-            series[way].points.push(Point::measured(along, shown));
+            charts.add(meter.reading.way, along, m, reading.truth, meter.precision);
         }
     }
     Ok(())

@@ -1,5 +1,6 @@
 //! `photonlab reproduce`: claims to records, figures and a report.
 
+mod case_charts;
 mod case_judgement;
 mod case_reading;
 mod caustic_flux;

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use photonlab_measure::{Axis, FigureData, Group, Record, Series, SeriesKind, Verdict};
+use photonlab_measure::{Group, Record, Verdict};
 use photonlab_reference::catalogue::{ALL, Case, Entry, WITHOUT_SCENE};
 
 use crate::{
     by_channels,
     reproduce::{
+        case_charts::CaseCharts,
         case_judgement::{Tally, compare},
-        case_reading::{CONFIDENCE, Rule, Way, read},
+        case_reading::{CONFIDENCE, Rule, read},
         context::{Context, Findings},
         lab::Lab,
     },
@@ -19,7 +20,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let rule: Rule = context.parameters()?;
     let folder = context.folder("scenes")?;
     let mut found = Findings { seeds: vec![rule.seed, rule.seed + 1], ..Findings::default() };
-    let mut series: Vec<Series> = Way::ALL.map(|way| empty(way.words())).to_vec();
+    let mut charts = CaseCharts::new();
     let mut all = Tally::default();
     let asked = |entry: &&Entry| context.entries.is_empty() || context.entries.iter().any(|id| id == entry.id);
     let entries: Vec<&Entry> = ALL.iter().filter(asked).collect();
@@ -39,7 +40,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             };
             let along = place as f64 + 0.6 + 0.8 * (number as f64 + 0.5) / cases.len() as f64;
             for meter in by_channels!(lab.needs.channels, read(&lab, &rule))? {
-                compare(&lab, &rule, (entry, case), &meter, along, &mut found, &mut tally, &mut series)?;
+                compare(&lab, &rule, (entry, case), &meter, along, &mut found, &mut tally, &mut charts)?;
             }
         }
         let title = format!("{} {}", entry.id, entry.title);
@@ -53,7 +54,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             comparisons: 0,
         }));
     }
-    found.figures.push(figure(series, &entries, &rule));
+    found.figures = charts.figures(&entries, &rule);
     conclude(context, found, &all)
 }
 
@@ -64,26 +65,6 @@ fn put_down(case: &Case, path: &Path) -> anyhow::Result<()> {
         std::fs::write(path.with_file_name(name), text)?;
     }
     Ok(())
-}
-
-fn empty(name: &str) -> Series {
-    Series { label: name.into(), kind: SeriesKind::Measured, points: Vec::new() }
-}
-
-fn figure(series: Vec<Series>, entries: &[&Entry], rule: &Rule) -> FigureData {
-    FigureData {
-        id: "deviations".into(),
-        title: "Readings of scenes with known answers".into(),
-        caption: format!(
-            "Each point is one meter, read by the way that suits it; bars: 99.99 % intervals with bias bounds. One unit is the \
-             wanted half-width: {} % of the answer, {} % of a flux.",
-            100.0 * rule.precision,
-            100.0 * rule.flux_precision
-        ),
-        x: Axis::named("entry", entries.iter().map(|entry| entry.id)),
-        y: Axis::linear("measured less expected, in wanted half-widths"),
-        series: series.into_iter().filter(|series| !series.points.is_empty()).collect(),
-    }
 }
 
 fn conclude(context: &Context, found: Findings, tally: &Tally) -> anyhow::Result<Record> {
