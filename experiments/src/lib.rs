@@ -6,6 +6,7 @@
 #[macro_use]
 mod say;
 
+mod certificate;
 mod chart;
 mod chosen;
 mod command;

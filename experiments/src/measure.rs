@@ -5,11 +5,12 @@ use std::{io::Write, time::Instant};
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass, Response};
 use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
-use photonlab_scene::{Emitter, Receiver, Scene};
+use photonlab_scene::{Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
 
 use crate::{
     Failure, by_channels,
+    certificate::{doubt, nothing, objections},
     command::{self, MethodName, Options},
     fixed_command::fixed_command,
     goniometer::LuminaireFile,
@@ -17,16 +18,6 @@ use crate::{
     progress::Progress,
     system,
 };
-
-/// A reading from a map that rests on fewer photons is not certified: none found is not dark, and few tell no error.
-const FEWEST_PHOTONS: f64 = 30.0;
-
-/// A reading of which more than this share was gathered across an edge is not certified.
-const RESOLVED: f64 = 1e-3;
-
-/// A reading whose kernel bias is surely more than this share of it is not certified. The bound is the bias's leading order: on a
-/// round peak (a Gaussian) of this bias it falls short by one per cent of the reading, on sharper ones by many times itself.
-const STRAIGHT: f64 = 0.05;
 
 /// Measures and writes the result to standard output.
 pub(crate) fn measure(arguments: &command::Measure) -> Result<(), Failure> {
@@ -136,7 +127,8 @@ fn readings<const C: usize>(
 ) -> Result<Vec<Reading>, Failure> {
     let degrees = outcome.cells.first().map_or(0.0, |cell| cell.value[0].degrees_of_freedom());
     let t = if degrees > 0.0 { student_t_quantile(options.confidence, degrees) } else { 0.0 };
-    let (scene, doubt) = (&loaded.world.scene, doubt(loaded, settings));
+    let scene = &loaded.world.scene;
+    let doubt = doubt(&loaded.world, &loaded.needs, loaded.leak, settings);
     let emits: Vec<bool> = (0..outcome.results).map(|channel| outcome.lamp_flux[channel] > 0.0).collect();
     let mut readings = Vec::new();
     for (cell, result) in cells.iter().zip(&outcome.cells) {
@@ -147,76 +139,22 @@ fn readings<const C: usize>(
                 cell: cell.cell,
                 channel: outcome.channels.names()[channel].into(),
             };
-            if result.found_nothing() {
-                let why =
-                    "no light was found: no photon and no lamp sample reached it, which does not show that it is dark";
+            if let Some(why) = nothing(result, channel, emits[channel]) {
                 readings.push(Reading::nothing(place, why).with_support(result.photons, outcome.radius)?);
                 continue;
             }
             let value = result.value[channel].mean().unwrap_or(0.0);
-            if value == 0.0 && !result.dark && emits[channel] {
-                let why =
-                    "no light of this channel was found, though a lamp emits it, which does not show that it is dark";
-                readings.push(Reading::nothing(place, why).with_support(result.photons, outcome.radius)?);
-                continue;
-            }
             let bias_bound = result.bias_bound(channel, options.confidence);
             let error = result.value[channel].std_error();
             let mut reading =
                 Reading::new(place, value, error, t, Some(bias_bound))?.with_support(result.photons, outcome.radius)?;
-            let unresolved = result.unresolved_share(channel);
-            if unresolved > RESOLVED {
-                reading = reading.not_certified(&format!(
-                    "{:.2} % of the value was gathered with a ball that reaches over an edge or onto another surface, where \
-                     the bias has no bound",
-                    100.0 * unresolved
-                ));
-            }
-            let bend = result.bend(channel, t);
-            if bend > STRAIGHT {
-                reading = reading.not_certified(&format!(
-                    "light changes within the ball that it was gathered with: by {:.0} % of the value at least, where the bias has no \
-                     sure bound; more photons make a smaller ball",
-                    100.0 * bend
-                ));
-            }
-            if result.asked_photons && result.photons < FEWEST_PHOTONS {
-                reading = reading.not_certified(&format!(
-                    "only {} photons were found near what it looks at: too few to tell what light they stand for",
-                    result.photons
-                ));
-            }
-            if let Some(doubt) = &doubt {
-                reading = reading.not_certified(doubt);
+            for objection in objections(result, channel, t).iter().chain(&doubt) {
+                reading = reading.not_certified(objection);
             }
             readings.push(reading);
         }
     }
     Ok(readings)
-}
-
-/// Why no reading of this method can be certified in this scene, if so.
-pub(crate) fn doubt(loaded: &Loaded, settings: &Settings) -> Option<String> {
-    let scene = &loaded.world.scene;
-    let has_delta_lamp = scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }));
-    if settings.method == Method::Path && loaded.needs.caustic && has_delta_lamp {
-        return Some(
-            "paths from the eye cannot find a point or directional lamp by way of specular surfaces; every other method can"
-                .into(),
-        );
-    }
-    if loaded.leak > 0.0 {
-        return Some(format!(
-            "{:.3} % of walks from the portals leave the scene by another way, and what light comes in there few photons tell",
-            100.0 * loaded.leak
-        ));
-    }
-    if settings.estimator.area == photonlab_gather::AreaModel::Sphere {
-        return Some(
-            "the sphere's whole area is the paper's wording, four times the area that a flat surface has in it".into(),
-        );
-    }
-    None
 }
 
 fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>, results: usize) -> FluxLedger {

@@ -6,11 +6,13 @@ use photonlab_readout::{Cell, ErrorOver, Outcome, Session, Source};
 use photonlab_scene::{Film, Receiver};
 
 use crate::{
-    Failure, by_channels, command,
+    Failure, by_channels,
+    certificate::doubt,
+    command,
     fixed_command::fixed_command,
     image::{Image, Layers},
     loaded::{Loaded, open_map, optics, read_failure, schedule, sensors, wanted},
-    measure::{doubt, warn},
+    measure::warn,
     progress::Progress,
     system,
 };
@@ -75,7 +77,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
-    if let Some(doubt) = doubt(loaded, &settings) {
+    if let Some(doubt) = doubt(&loaded.world, &loaded.needs, loaded.leak, &settings) {
         say!("warning: this image is not certified: {doubt}");
     }
     let unit = cells[0].quantity().in_system(options.unit_system()).unit();

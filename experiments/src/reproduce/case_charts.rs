@@ -24,8 +24,12 @@ impl CaseCharts {
         // A reading by a formula has no width to speak of.
         if half > 1e-6 * precision * truth {
             let apart = |x: f64| (x - truth) / half;
-            let shown =
-                Interval { value: apart(measured.value), low: apart(measured.low), high: apart(measured.high), ..measured };
+            let shown = Interval {
+                value: apart(measured.value),
+                low: apart(measured.low),
+                high: apart(measured.high),
+                ..measured
+            };
             self.deviations[way].points.push(Point::measured(along, shown));
             self.widths[way].points.push(Point::new(along, half / (precision * truth)));
         }

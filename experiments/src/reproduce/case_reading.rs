@@ -1,10 +1,14 @@
 //! A scene with known answers, read by every way there is, and then each meter by the way that suits it.
 
-use std::time::{Duration, Instant};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 use photonlab_gather::Estimator;
 use photonlab_measure::{Interval, normal_quantile, student_t_quantile};
 use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
+use photonlab_reference::catalogue::Case;
 use photonlab_scene::Emitter;
 use photonlab_trace::Limits;
 use serde::Deserialize;
@@ -36,6 +40,15 @@ pub(super) struct Rule {
     pub(super) precision: f64,
     /// The same where flux is read.
     pub(super) flux_precision: f64,
+}
+
+/// Writes the scene and what it names to files.
+pub(super) fn put_down(case: &Case, path: &Path) -> anyhow::Result<()> {
+    std::fs::write(path, &case.xml)?;
+    for (name, text) in &case.files {
+        std::fs::write(path.with_file_name(name), text)?;
+    }
+    Ok(())
 }
 
 /// A way to read a scene.

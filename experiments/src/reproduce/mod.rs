@@ -7,6 +7,7 @@ mod caustic_flux;
 mod caustic_profile;
 mod claims;
 mod context;
+mod covered;
 mod cpu_clock;
 mod cube_field;
 mod cube_law;
@@ -89,7 +90,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue]);
+    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Coverage]);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| match word.as_str() {
         "atlas" => Err(Failure::usage(format!("{word} is not built yet; claims built: {}", known()))),

@@ -1,16 +1,14 @@
 //! `catalogue`: every scene whose answer is known, against that answer.
 
-use std::path::Path;
-
 use photonlab_measure::{Group, Record, Verdict};
-use photonlab_reference::catalogue::{ALL, Case, Entry, WITHOUT_SCENE};
+use photonlab_reference::catalogue::{ALL, Entry, WITHOUT_SCENE};
 
 use crate::{
     by_channels,
     reproduce::{
         case_charts::CaseCharts,
         case_judgement::{Tally, compare},
-        case_reading::{CONFIDENCE, Rule, read},
+        case_reading::{CONFIDENCE, Rule, put_down, read},
         context::{Context, Findings},
         lab::Lab,
     },
@@ -56,15 +54,6 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     }
     found.figures = charts.figures(&entries, &rule);
     conclude(context, found, &all)
-}
-
-/// Writes the scene and what it names to files.
-fn put_down(case: &Case, path: &Path) -> anyhow::Result<()> {
-    std::fs::write(path, &case.xml)?;
-    for (name, text) in &case.files {
-        std::fs::write(path.with_file_name(name), text)?;
-    }
-    Ok(())
 }
 
 fn conclude(context: &Context, found: Findings, tally: &Tally) -> anyhow::Result<Record> {

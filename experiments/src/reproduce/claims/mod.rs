@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod caustics;
+mod coverage;
 mod edge_darkening;
 mod even_noise;
 mod figure_1;
@@ -44,10 +45,11 @@ pub(super) enum Claim {
     RenderingEquation,
     Figure1,
     Catalogue,
+    Coverage,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue is run when it is asked for.
+    /// Every claim of the paper, in the order of the report. The catalogue and the coverage are run when they are asked for.
     pub(super) const ALL: [Claim; 17] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -89,6 +91,7 @@ impl Claim {
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
+            Claim::Coverage => "coverage",
         }
     }
 
@@ -113,6 +116,7 @@ impl Claim {
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
+            Claim::Coverage => include_str!("../../../definitions/coverage.toml"),
         }
     }
 
@@ -137,6 +141,7 @@ impl Claim {
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
+            Claim::Coverage => coverage::run(context),
         }
     }
 }

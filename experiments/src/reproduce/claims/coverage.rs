@@ -1,0 +1,301 @@
+//! `coverage`: how often error bars hold, over every scene with a known answer.
+
+use photonlab_gather::Estimator;
+use photonlab_measure::{
+    Axis, Comparison, Expected, FigureData, Group, Point, Record, Row, Series, SeriesKind, Verdict, student_t_quantile,
+};
+use photonlab_readout::{Cell, CellResult, Direct, Method, Outcome, Settings, Target, Wanted};
+use photonlab_reference::catalogue::{ALL, Case, Entry};
+use photonlab_sampling::leak;
+use photonlab_trace::Limits;
+use serde::Deserialize;
+
+use crate::{
+    by_channels,
+    certificate::{doubt, nothing, objections},
+    reproduce::{
+        case_reading::put_down,
+        context::{Context, Findings},
+        covered::{Covered, LEVELS, Made, Truth, USUAL},
+        lab::Lab,
+        table::row,
+    },
+};
+
+/// Confidence of each comparison.
+const CONFIDENCE: f64 = 0.99;
+/// Points by which noise alone may miss its nominal coverage, and by which whole intervals may fall short of it.
+const NOISE: f64 = 0.02;
+const SHORT: f64 = 0.01;
+/// Most of the median half-width over the RMS error.
+const WIDEST: f64 = 3.0;
+/// Photons of a nearest-photon estimate, as the command has it.
+const K: usize = 50;
+
+const METHODS: [(&str, Method); 5] = [
+    ("final gather", Method::FinalGather { radius: None }),
+    ("fixed radius", Method::Radius { radius: None }),
+    ("k nearest", Method::Nearest { k: K }),
+    ("path tracing", Method::Path),
+    ("photons counted", Method::Bins),
+];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    seed: u64,
+    /// Every so many-th scene is read, by the hash of its name.
+    one_in: u64,
+    seeds: u64,
+    photons: u64,
+    points: u64,
+    /// Widest half-width of a coverage at 95 % that still says something.
+    precision: f64,
+}
+
+/// What one method did over the scenes of one part.
+#[derive(Default)]
+struct Part {
+    covered: Covered,
+    scenes: usize,
+}
+
+pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
+    let p: Parameters = context.parameters()?;
+    let folder = context.folder("scenes")?;
+    let mut found = Findings { seeds: vec![p.seed], ..Findings::default() };
+    // By method, then tuned-on and set-aside.
+    let mut parts: Vec<[Part; 2]> = METHODS.iter().map(|_| Default::default()).collect();
+    let cases = ALL.iter().flat_map(|entry| (entry.cases)().into_iter().map(move |case| (entry, case)));
+    for (number, (entry, case)) in cases.enumerate() {
+        let hash = fnv1a(&format!("{} {}", entry.id, case.name));
+        if !(hash >> 1).is_multiple_of(p.one_in) {
+            continue;
+        }
+        say!("       {} {}", entry.id, case.name);
+        let path = folder.join(format!("{number}.xml"));
+        put_down(&case, &path)?;
+        let lab = Lab::open(&path)?;
+        let first = p.seed + 1000 * (number as u64 + 1);
+        for (&(name, method), parts) in METHODS.iter().zip(&mut parts) {
+            let (runs, truths) = by_channels!(lab.needs.channels, read(&lab, &case, method, &p, first))?;
+            if truths.is_empty() {
+                continue;
+            }
+            found.rows.push(scene_row(entry, &case, name, hash & 1 == 1, &runs, &truths));
+            let part = &mut parts[(hash & 1) as usize];
+            part.covered.add(&runs, &truths);
+            part.scenes += 1;
+        }
+    }
+    for ((name, _), parts) in METHODS.iter().zip(&parts) {
+        for (part, which) in parts.iter().zip(["tuned-on", "set-aside"]) {
+            let comparisons = compare(name, which, part);
+            found.groups.push(group(name, which, part, comparisons.len()));
+            found.comparisons.extend(comparisons);
+        }
+    }
+    found.figures = vec![
+        figure("noise", "Noise alone", &parts, |c| &c.noise),
+        figure("whole", "Whole intervals of certified readings", &parts, |c| &c.whole),
+    ];
+    let (verdict, reason) = conclude(&p, &parts, &found.comparisons);
+    Ok(context.record(found, verdict, reason))
+}
+
+/// FNV-1a in 64 bits: the same on every machine, and beyond anyone's wishes.
+fn fnv1a(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+}
+
+/// Every meter that a method reads, by every seed, as the command would judge it; and the answers.
+fn read<const C: usize>(
+    lab: &Lab,
+    case: &Case,
+    method: Method,
+    p: &Parameters,
+    first: u64,
+) -> anyhow::Result<(Vec<Vec<Option<Made>>>, Vec<Truth>)> {
+    let counts = method == Method::Bins;
+    let readable = |cell: &Cell| match cell.target {
+        Target::Leaving { .. } => counts,
+        Target::Along(_) | Target::Distant { .. } => !counts,
+        _ => true,
+    };
+    let cells: Vec<Cell> = Cell::of_meters(&lab.world.scene).into_iter().filter(readable).collect();
+    let answers = cells.iter().map(|cell| {
+        let id = &lab.world.scene.sensors[cell.sensor].id;
+        case.expected.iter().find(|answer| &answer.sensor == id).ok_or_else(|| anyhow::anyhow!("no answer for {id}"))
+    });
+    let answers: Vec<_> = answers.collect::<anyhow::Result<_>>()?;
+    let settings = |seed: u64| Settings {
+        method,
+        direct: Direct::Sampled,
+        estimator: Estimator::default(),
+        gather_rays: 1,
+        seed,
+        limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
+    };
+    let wanted = Wanted { photons: Some(p.photons), samples: (!counts).then_some(p.points), ..Wanted::default() };
+    let is_doubted = doubt(&lab.world, &lab.needs, leak(&lab.world), &settings(first)).is_some();
+    let (mut runs, mut truths) = (Vec::new(), Vec::new());
+    if cells.is_empty() {
+        return Ok((runs, truths));
+    }
+    for seed in first..first + p.seeds {
+        let outcome = lab.read::<C>(&cells, settings(seed), &wanted, LEVELS[USUAL])?;
+        let channels = 0..outcome.results;
+        truths = answers
+            .iter()
+            .flat_map(|answer| {
+                let value = |channel: usize| answer.value[channel.min(answer.value.len() - 1)];
+                channels.clone().map(move |channel| Truth { value: value(channel), uncertainty: answer.uncertainty })
+            })
+            .collect();
+        let made = outcome.cells.iter().flat_map(|cell| channels.clone().map(|c| make(cell, c, &outcome, is_doubted)));
+        runs.push(made.collect());
+    }
+    Ok((runs, truths))
+}
+
+fn make<const C: usize>(
+    result: &CellResult<C>,
+    channel: usize,
+    outcome: &Outcome<C>,
+    is_doubted: bool,
+) -> Option<Made> {
+    if nothing(result, channel, outcome.lamp_flux[channel] > 0.0).is_some() {
+        return None;
+    }
+    let value = &result.value[channel];
+    let degrees = value.degrees_of_freedom();
+    let t = if degrees > 0.0 { student_t_quantile(LEVELS[USUAL], degrees) } else { 0.0 };
+    Some(Made {
+        value: value.mean()?,
+        error: value.std_error()?,
+        degrees,
+        half_widths: LEVELS.map(|level| result.half_width(channel, level).unwrap_or(f64::INFINITY)),
+        certified: !is_doubted && objections(result, channel, t).is_empty(),
+    })
+}
+
+fn compare(name: &str, which: &str, part: &Part) -> Vec<Comparison> {
+    let covered = &part.covered;
+    let mut comparisons = Vec::new();
+    for (level, nominal) in LEVELS.into_iter().enumerate() {
+        let percent = 100.0 * nominal;
+        let expected = Expected::within(nominal, NOISE, "passes are independent");
+        let label = format!("{name}, {which}: {percent} % intervals of the noise alone hold the estimator's mean");
+        comparisons.push(Comparison::judge(label, "1", expected, covered.noise[level].interval(CONFIDENCE)));
+        let expected =
+            Expected { value: nominal, low: nominal - SHORT, high: 1.0, source: "the interval's own promise".into() };
+        let label = format!("{name}, {which}: {percent} % intervals of certified readings hold the answer");
+        comparisons.push(Comparison::judge(label, "1", expected, covered.whole[level].interval(CONFIDENCE)));
+    }
+    comparisons
+}
+
+fn group(name: &str, which: &str, part: &Part, comparisons: usize) -> Group {
+    let covered = &part.covered;
+    let ratio = covered.median_ratio().map_or("unknown".into(), |ratio| format!("{ratio:.2}"));
+    let summary = format!(
+        "{} scenes; {:.1} % of {} readings certified; median half-width at 95 % over the RMS error {ratio}",
+        part.scenes,
+        100.0 * covered.certified_share(),
+        covered.readings
+    );
+    Group { title: format!("{name}, {which} scenes"), summary, comparisons }
+}
+
+fn figure(
+    id: &str,
+    title: &str,
+    parts: &[[Part; 2]],
+    of: fn(&Covered) -> &[photonlab_measure::Replicates; LEVELS.len()],
+) -> FigureData {
+    let point = |part: &Part, level: usize, aside: f64| {
+        let interval = of(&part.covered)[level].interval(CONFIDENCE)?;
+        Some(Point::measured(level as f64 + 1.0 + aside, interval.scaled(100.0)))
+    };
+    let mut series: Vec<Series> = METHODS
+        .iter()
+        .zip(parts)
+        .enumerate()
+        .map(|(number, ((name, _), parts))| Series {
+            label: (*name).into(),
+            kind: SeriesKind::Measured,
+            points: (0..LEVELS.len())
+                .filter_map(|level| point(&parts[1], level, 0.12 * (number as f64 - 2.0)))
+                .collect(),
+        })
+        .filter(|series| !series.points.is_empty())
+        .collect();
+    let nominal = LEVELS.iter().enumerate().map(|(level, nominal)| Point::new(level as f64 + 1.0, 100.0 * nominal));
+    series.push(Series { label: "nominal".into(), kind: SeriesKind::Predicted, points: nominal.collect() });
+    FigureData {
+        id: id.into(),
+        title: format!("{title}: how often they hold"),
+        caption: "Set-aside scenes; bars: 99 % intervals, each run one replicate.".into(),
+        x: Axis::named("confidence of the interval", ["50 %", "90 %", "95 %", "99 %"]),
+        y: Axis::linear("share that holds, %"),
+        series,
+    }
+}
+
+fn scene_row(
+    entry: &Entry,
+    case: &Case,
+    method: &str,
+    set_aside: bool,
+    runs: &[Vec<Option<Made>>],
+    truths: &[Truth],
+) -> Row {
+    let mut covered = Covered::default();
+    covered.add(runs, truths);
+    let share = |of: &photonlab_measure::Replicates| of.mean().map(|share| (1e4 * share).round() / 1e4);
+    row([
+        ("scene", format!("{} {}", entry.id, case.name).into()),
+        ("method", method.into()),
+        ("set_aside", set_aside.into()),
+        ("readings", truths.len().into()),
+        ("certified", covered.certified_share().into()),
+        ("noise_95", share(&covered.noise[USUAL]).into()),
+        ("whole_95", share(&covered.whole[USUAL]).into()),
+        ("width_over_error", covered.median_ratio().into()),
+    ])
+}
+
+fn conclude(p: &Parameters, parts: &[[Part; 2]], comparisons: &[Comparison]) -> (Verdict, String) {
+    let wide = |part: &Part| {
+        let of = &part.covered;
+        [&of.noise[USUAL], &of.whole[USUAL]]
+            .into_iter()
+            .any(|share| share.interval(CONFIDENCE).is_none_or(|interval| interval.half_width() > p.precision))
+    };
+    let words = METHODS.iter().zip(parts).map(|((name, _), parts)| {
+        let of = &parts[1].covered;
+        let percent = |share: &photonlab_measure::Replicates| 100.0 * share.mean().unwrap_or(0.0);
+        format!(
+            "{name} {:.1} % and {:.1} % ({:.0} % certified, {:.1} times the error)",
+            percent(&of.noise[USUAL]),
+            percent(&of.whole[USUAL]),
+            100.0 * of.certified_share(),
+            of.median_ratio().unwrap_or(f64::NAN)
+        )
+    });
+    let reason = format!(
+        "over the set-aside scenes 95 % intervals of the noise alone hold the estimator's mean, and whole ones of certified readings \
+         the answer, in: {}",
+        words.collect::<Vec<_>>().join("; ")
+    );
+    if parts.iter().any(|parts| wide(&parts[1])) {
+        return (
+            Verdict::NotMeasured,
+            format!("{reason}; the intervals of these shares are wider than the definition asks"),
+        );
+    }
+    let narrow = parts.iter().all(|parts| parts[1].covered.median_ratio().is_none_or(|ratio| ratio <= WIDEST));
+    let aside = comparisons.iter().filter(|c| c.label.contains("set-aside"));
+    let holds = aside.clone().all(|c| c.holds != Some(false)) && narrow;
+    (if holds { Verdict::Holds } else { Verdict::DoesNotHold }, reason)
+}
