@@ -78,6 +78,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cube, six meters", 6),
     ("cube, mean", 1),
     ("ball lens, transport", 5),
+    ("ball lens, flux on discs", 12),
     ("white furnace, eye", 27),
     ("white furnace, photons", 9),
     ("coloured sphere", 4),

@@ -58,6 +58,8 @@ pub struct Gatherer<'w, const C: usize> {
     pub limits: EyeLimits,
     /// False if a ray from a diffuse point can bring nothing but what lamps and the caustic map give: none is sent then.
     pub looks_around: bool,
+    /// False if the caller knows what caustic light arrives where a walk starts; elsewhere it comes from the map.
+    pub caustics_at_start: bool,
 }
 
 impl<const C: usize> Gatherer<'_, C> {
@@ -80,7 +82,9 @@ impl<const C: usize> Gatherer<'_, C> {
         for bounce in 0.. {
             let share = if bounce == 0 { share } else { 0.0 };
             light.add(&self.lamps_at(&at, &sight, used, share, stream).weighted(weight));
-            light.add(&self.caustics_at(&at, &sight, used, scratch).weighted(weight));
+            if bounce > 0 || self.caustics_at_start {
+                light.add(&self.caustics_at(&at, &sight, used, scratch).weighted(weight));
+            }
             if !self.looks_around || !self.limits.allows(used + 1) {
                 break;
             }

@@ -96,7 +96,10 @@ impl<const C: usize> Walk<'_, '_, C> {
         let share = |along| volume.transmittance(along) * (1.0 / volume.share_that_flies(weight, along));
         let near = piece.near_surfaces([0.0, flown], maps.all.radius);
         let short = Piece { depth: flown, ..*piece };
-        self.read_along(&short, maps.all, &near, share, |_, along| !near.has(along));
+        // Near surfaces all along, nothing rests on photons: none found there is no doubt.
+        if !near.cover([0.0, flown]) {
+            self.read_along(&short, maps.all, &near, share, |_, along| !near.has(along));
+        }
         if let Some(caustic) = maps.caustic.filter(|_| !near.is_empty()) {
             let doubtful = piece.near_surfaces([0.0, flown], caustic.radius);
             let counts = |class, along| class == PathClass::Caustic && near.has(along);

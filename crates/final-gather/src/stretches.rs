@@ -42,6 +42,11 @@ impl Stretches {
         after > 0 && along < self.near[after - 1][1]
     }
 
+    /// True if all places from one to another are.
+    pub(crate) fn cover(&self, [start, end]: [f64; 2]) -> bool {
+        self.near.iter().any(|&[from, to]| from <= start && end <= to)
+    }
+
     /// True if no place is.
     pub(crate) fn is_empty(&self) -> bool {
         self.near.is_empty()
@@ -76,6 +81,8 @@ mod tests {
             assert_eq!(through_window.has(along), expected, "{along}: {through_window:?}");
         }
         assert!(!near.is_empty() && !near.has(1.5));
+        assert!(near.cover([0.0, 0.05]) && !near.cover([0.0, 0.2]) && !near.cover([0.0, 1.0]));
+        assert!(Stretches::near_surfaces(&world, &ray, 1.0, [0.0, 1.0], 0.6).cover([0.0, 1.0]));
         let between = Ray::new(DVec3::new(0.0, 0.0, 0.5), DVec3::X);
         assert!(Stretches::near_surfaces(&world, &between, 3.0, [0.0, 3.0], 0.1).is_empty());
     }

@@ -10,6 +10,7 @@ use photonlab_scene::{Ray, SurfacePoint, World};
 
 use crate::{
     Cell, Direct, Method, Settings, Target,
+    caustic_cells::CausticCells,
     cells::{distant_ray, pixel_ray},
     lattice,
     maps::PassMaps,
@@ -28,6 +29,8 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) samples: u64,
     /// What the weight of each cell's points needs against rays from point lamps.
     pub(crate) shares: &'p [f64],
+    /// Caustic light that is counted in cells.
+    pub(crate) caustics: &'p CausticCells<C>,
 }
 
 /// What one sample of a cell found, in the cell's unit.
@@ -66,7 +69,8 @@ impl<const C: usize> Look<'_, C> {
                 let share = self.shares[number];
                 let surrounding = self.world.scene.sensors[cell.sensor].medium;
                 let medium = self.world.medium_beside(point.primitive, true, surrounding);
-                let seed = Seed { first, sample, shift, share, radius };
+                let caustics = self.caustics.of(number).is_none();
+                let seed = Seed { first, sample, shift, share, radius, caustics };
                 return Sample {
                     light: self.irradiance(&point, Sight::meter(point.normal, medium), 0, seed, scratch),
                     dark: false,
@@ -90,7 +94,7 @@ impl<const C: usize> Look<'_, C> {
         let emitted = light.irradiance;
         let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
         if let Some((hit, sight, weight)) = matte {
-            let seed = Seed { first, sample, shift, share: 0.0, radius };
+            let seed = Seed { first, sample, shift, share: 0.0, radius, caustics: true };
             let found = self.irradiance(&hit.point, sight, landing.segments, seed, scratch);
             light.add(&found.weighted(sight.factor * weight * (1.0 / PI)));
         }
@@ -156,6 +160,7 @@ impl<const C: usize> Look<'_, C> {
                         maps,
                         limits: self.limits(),
                         looks_around: self.looks_around,
+                        caustics_at_start: seed.caustics,
                     };
                     gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch)
                 }
@@ -220,4 +225,6 @@ struct Seed<'s> {
     share: f64,
     /// With which a map is read, metres.
     radius: f64,
+    /// False if caustic light is counted in the cell.
+    caustics: bool,
 }

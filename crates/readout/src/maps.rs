@@ -8,7 +8,7 @@ use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, Job, Ledger, VolumeRecords, trace};
 
-use crate::{Method, ReadError, Settings};
+use crate::{Cell, Method, ReadError, Settings, caustic_cells::CausticCells};
 
 /// Photons that a surface map's disc holds on average where photons are: few, because many rays average them, so that
 /// the disc and its bias stay small.
@@ -80,6 +80,8 @@ pub(crate) struct PassMaps<const C: usize> {
     volume_caustic: Option<VolumeMap<C>>,
     volume_caustic_radius: f64,
     kernel: Kernel,
+    /// Caustic light that cells of meters count for themselves.
+    pub(crate) in_cells: CausticCells<C>,
 }
 
 /// Radii of the first pass, from which those of all others follow.
@@ -103,14 +105,15 @@ impl<const C: usize> PassMaps<C> {
             volume_caustic: None,
             volume_caustic_radius: 0.0,
             kernel: Kernel::Disc,
+            in_cells: CausticCells::none(),
         }
     }
 
     /// Builds what the method reads; chooses radii in the first pass and shrinks them in later ones.
     pub(crate) fn build(
         photons: PassPhotons<C>,
-        world: &World,
-        needs: &Needs,
+        (world, needs): (&World, &Needs),
+        cells: &[Cell],
         settings: &Settings,
         pass: u32,
         radii: &mut Radii,
@@ -143,6 +146,11 @@ impl<const C: usize> PassMaps<C> {
         };
         let surface_radius = radius(&surface, &mut radii.surface, count);
         let caustic_radius = radius(&caustic, &mut radii.caustic, CAUSTIC_COUNT);
+        let in_cells = if caustic.is_some() {
+            CausticCells::count(world, cells, &photons, caustic_radius, settings.limits.max_segments)
+        } else {
+            CausticCells::none()
+        };
         let of_volume = |wanted: bool, keep: &dyn Fn(PathClass) -> bool| {
             wanted
                 .then(|| select_in_volume(&photons.volume, keep))
@@ -174,6 +182,7 @@ impl<const C: usize> PassMaps<C> {
             volume_caustic,
             volume_caustic_radius,
             kernel: settings.estimator.kernel,
+            in_cells,
         })
     }
 

@@ -267,7 +267,7 @@ impl<const C: usize> Session<'_, C> {
             return self.count(run, cells, schedule);
         }
         let optics = &*self.optics.of_pass(self.world, source.seed(self.settings.seed), number as u32);
-        let maps = self.maps(run, optics, number, schedule, source)?;
+        let maps = self.maps(run, cells, optics, number, schedule, source)?;
         let samples = schedule.samples(number);
         let shares = shares(self.world, &optics.lamps, cells);
         let look = Look {
@@ -279,6 +279,7 @@ impl<const C: usize> Session<'_, C> {
             pass: number as u32,
             samples,
             shares: &shares,
+            caustics: &maps.in_cells,
         };
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(maps.surface_radius)).collect();
         let blocks = samples.div_ceil(BLOCK);
@@ -305,6 +306,11 @@ impl<const C: usize> Session<'_, C> {
                 run.of_cells[index].learn(&mean, radii[index], number + 1, self.largest_radius());
             }
             mean.irradiance += probed;
+            if let Some((irradiance, photons)) = maps.in_cells.of(index) {
+                mean.irradiance += irradiance;
+                mean.reads += 1.0;
+                light.photons += photons as f64;
+            }
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
             let mean = mean.developed(&optics.palette);
             run.cells[index].push(&mean, light.photons, parts.iter().all(|part| part.dark));
@@ -358,6 +364,7 @@ impl<const C: usize> Session<'_, C> {
     fn maps(
         &self,
         run: &mut Run<C>,
+        cells: &[Cell],
         optics: &Optics<C>,
         number: u64,
         schedule: &Schedule,
@@ -374,7 +381,8 @@ impl<const C: usize> Session<'_, C> {
             }
         };
         run.book(photons.emitted, &photons.ledger.map(|flux| optics.palette.develop(flux)));
-        let maps = PassMaps::build(photons, self.world, self.needs, &self.settings, number as u32, &mut run.radii)?;
+        let maps =
+            PassMaps::build(photons, (self.world, self.needs), cells, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
     }

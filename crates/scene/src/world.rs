@@ -81,6 +81,12 @@ impl World {
         self.bounds
     }
 
+    /// Smallest and largest coordinates of a shape, metres.
+    pub fn bounds_of(&self, shape: usize) -> (DVec3, DVec3) {
+        let each = self.primitives_of(shape).map(|primitive| self.primitives[primitive as usize].surface.bounds());
+        each.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or_default()
+    }
+
     /// A position in the single precision of photons and trees, relative to the middle of the scene: a room keeps its
     /// digits however far from the origin of its coordinates it stands.
     pub fn stored(&self, position: DVec3) -> [f32; 3] {
