@@ -120,6 +120,10 @@ impl<const C: usize> Walk<'_, '_, C> {
     ) {
         let (ray, volume) = (piece.ray, self.optics.volume(piece.medium));
         let most = piece.limits.max_segments.map(|max| max.saturating_sub(self.landing.segments + 1));
+        // No photon's path is so short: nothing rests on them.
+        if most == Some(0) {
+            return;
+        }
         let scattered = |photon: &VolumePhoton<C>, along: f64| {
             let wanted = photon.medium == piece.medium
                 && counts(photon.class, along)

@@ -1,7 +1,8 @@
 //! Caustic light on meters, counted in their cells.
 //!
 //! A density estimate blurs what it reads and darkens at edges. A cell of a meter that is no smaller than the ball would be holds
-//! as many photons itself, and their flux over its area is its irradiance without either.
+//! as many photons itself, and their flux over its area is its irradiance without either. On a meter that is hardly larger than
+//! the ball there is nothing else to read.
 
 use std::f64::consts::PI;
 
@@ -15,6 +16,8 @@ use crate::{Cell, PassPhotons, Target, bins::Bins};
 
 /// Photons looked at by one task.
 const CHUNK: usize = 4096;
+/// A shape below this many discs' area is mostly edge: its cells are counted however small they are.
+const DISCS: f64 = 16.0;
 /// Distance from which a photon's surface is sought again, over the size of the scene: beyond the rounding of positions in single
 /// precision, and below what parts two surfaces.
 const ROUNDING: f64 = 1e-6;
@@ -31,7 +34,8 @@ impl<const C: usize> CausticCells<C> {
         Self { counted: Vec::new() }
     }
 
-    /// Counts in the cells that are no smaller than the disc of a radius, photons of at most so many segments.
+    /// Counts in the cells that are no smaller than the disc of a radius, or stand on little more, photons of at most so many
+    /// segments.
     pub(crate) fn count(
         world: &World,
         cells: &[Cell],
@@ -39,7 +43,7 @@ impl<const C: usize> CausticCells<C> {
         radius: f64,
         max_segments: Option<u32>,
     ) -> Self {
-        let is_counted: Vec<bool> = cells.iter().map(|cell| is_wide(world, cell, radius)).collect();
+        let is_counted: Vec<bool> = cells.iter().map(|cell| is_counted(world, cell, radius)).collect();
         if !is_counted.contains(&true) {
             return Self::none();
         }
@@ -127,9 +131,9 @@ fn shape(cell: &Cell) -> Option<usize> {
     }
 }
 
-/// True if a cell is no smaller than the disc of a radius.
-fn is_wide(world: &World, cell: &Cell, radius: f64) -> bool {
-    shape(cell).is_some() && area(world, cell) >= PI * radius * radius
+fn is_counted(world: &World, cell: &Cell, radius: f64) -> bool {
+    let disc = PI * radius * radius;
+    shape(cell).is_some_and(|shape| area(world, cell) >= disc || world.area_of(shape) < DISCS * disc)
 }
 
 /// Square metres.
