@@ -47,7 +47,8 @@ pub(crate) fn objections<const C: usize>(result: &CellResult<C>, channel: usize,
     }
     if result.asked_photons && result.photons < FEWEST_PHOTONS {
         objections.push(format!(
-            "only {} photons were found near what it looks at: too few to tell what light they stand for",
+            "only {} photons were found near what it looks at, or paths that met a lamp behind specular surfaces: too few to tell \
+             what light they stand for",
             result.photons
         ));
     }

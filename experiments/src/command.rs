@@ -75,7 +75,7 @@ pub(crate) struct Options {
     /// Passes, each with photons and rays of its own.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) passes: Option<u64>,
-    /// Longest light path in segments, as Mitsuba counts them.
+    /// Longest light path in segments, as Mitsuba's volpath counts them: passing through a mask is none.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) max_depth: Option<u32>,
     /// Longest run of lossless specular events [default: 1000].
@@ -94,7 +94,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "ID")]
     pub(crate) sensor: Option<String>,
     /// Seed of all random numbers.
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, default_value_t = 0)]
     pub(crate) seed: u64,
     /// Threads [default: all cores]. No result depends on it.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number::threads)]
@@ -103,7 +103,7 @@ pub(crate) struct Options {
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) device: DeviceName,
     /// Stop when the interval's half-width is this share of the value (1% or 0.01).
-    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = number::share)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number::share)]
     pub(crate) target_error: Option<f64>,
     /// Confidence of the intervals.
     #[arg(long, value_name = "P", allow_negative_numbers = true, value_parser = number::probability, default_value = "0.95")]
@@ -171,7 +171,7 @@ pub(crate) struct Plan {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
     /// The wanted error.
-    #[arg(long, value_name = "E", allow_negative_numbers = true, value_parser = number::share)]
+    #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number::share)]
     pub(crate) target_error: Option<f64>,
 }
 

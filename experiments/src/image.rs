@@ -39,6 +39,13 @@ pub(crate) fn is_writable(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::usage(format!("-o {}: this is a folder; name a file in it", path.display())));
     }
+    if path.exists() && !path.is_file() {
+        return Err(Failure::usage(format!(
+            "-o {}: this is a device or a pipe, which a file would replace; name a plain file",
+            path.display()
+        )));
+    }
+    crate::interrupt::try_writing(path)?;
     Ok(())
 }
 

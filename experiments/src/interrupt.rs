@@ -5,6 +5,8 @@ use std::{
     sync::{Mutex, MutexGuard},
 };
 
+use photonlab_readout::partial_name;
+
 static WRITING: Mutex<()> = Mutex::new(());
 
 /// Folders made for a run, the innermost last.
@@ -49,12 +51,26 @@ pub(crate) fn write_whole(path: &std::path::Path, bytes: &[u8]) -> anyhow::Resul
     // A link keeps pointing where it did: the file behind it is replaced.
     let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.into());
     let path = target.as_path();
-    let mut partial = path.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = std::path::PathBuf::from(partial);
-    let written = std::fs::write(&partial, bytes).and_then(|()| std::fs::rename(&partial, path));
+    let partial = partial_name(path);
+    let write = || {
+        let mut file = std::fs::File::create_new(&partial)?;
+        std::io::Write::write_all(&mut file, bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&partial, path)
+    };
+    let written = write();
     written.with_context(|| {
         let _ = std::fs::remove_file(&partial);
         format!("cannot write {}", path.display())
     })
+}
+
+/// Fails where [`write_whole`] would, as far as that can be known before there is anything to write.
+pub(crate) fn try_writing(path: &Path) -> anyhow::Result<()> {
+    use anyhow::Context;
+    let _guard = writing();
+    let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.into());
+    let partial = partial_name(&target);
+    let tried = std::fs::File::create_new(&partial).and_then(|_| std::fs::remove_file(&partial));
+    tried.with_context(|| format!("cannot write {}", path.display()))
 }

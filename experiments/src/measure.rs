@@ -2,7 +2,7 @@
 
 use std::{io::Write, time::Instant};
 
-use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, student_t_quantile};
+use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, Stopped, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass, Response};
 use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
 use photonlab_scene::{Receiver, Scene};
@@ -60,6 +60,7 @@ fn run<const C: usize>(
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
+    warn_of_unsent(&outcome, options.photons);
     Ok(Measurement {
         scene: arguments.scene.scene.display().to_string(),
         method: settings.method.name().into(),
@@ -93,6 +94,21 @@ pub(crate) fn warn<const C: usize>(outcome: &Outcome<C>) {
              that were ended early ({share:.3} % of the emitted flux)",
             ledger.trapped_paths
         );
+    }
+}
+
+/// Says that another end came first, where photons were asked for.
+pub(crate) fn warn_of_unsent<const C: usize>(outcome: &Outcome<C>, asked: Option<u64>) {
+    if let Some(asked) = asked.filter(|&asked| outcome.photons < asked) {
+        let why = match outcome.stopped {
+            Stopped::Target => "the wanted error",
+            Stopped::Time => "the time limit",
+            Stopped::Count if outcome.photons == 0 => {
+                "nothing that the method reads here rests on photons, and the end"
+            }
+            Stopped::Count => "another count (--spp or --passes)",
+        };
+        say!("note: {} of {asked} photons were sent: {why} came first", outcome.photons);
     }
 }
 
@@ -191,11 +207,16 @@ fn flux_ledger<const C: usize>(ledger: Option<&Ledger<C>>, results: usize) -> Fl
 fn table(measurement: &Measurement, confidence: f64) -> String {
     use std::fmt::Write;
     let mut text = format!(
-        "{}: {} with {} photons, {:.2} s; intervals at {} %\n",
+        "{}: {} with {} photons, {:.2} s, ended by {}; intervals at {} %\n",
         measurement.scene,
         measurement.method,
         measurement.photons,
         measurement.seconds,
+        match measurement.stopped {
+            Stopped::Target => "the wanted error",
+            Stopped::Time => "the time limit",
+            Stopped::Count => "its counts",
+        },
         100.0 * confidence
     );
     for r in &measurement.readings {

@@ -12,7 +12,7 @@ use crate::{
     fixed_command::fixed_command,
     image::{Image, Layers},
     loaded::{Loaded, open_map, optics, read_failure, schedule, sensors, wanted},
-    measure::warn,
+    measure::{warn, warn_of_unsent},
     progress::Progress,
     system,
 };
@@ -77,6 +77,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let source = map.as_ref().map_or(Source::Trace, Source::Map);
     let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
     warn(&outcome);
+    warn_of_unsent(&outcome, options.photons);
     if let Some(doubt) = doubt(&loaded.world, &loaded.needs, loaded.leak, &settings) {
         say!("warning: this image is not certified: {doubt}");
     }

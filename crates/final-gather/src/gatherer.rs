@@ -116,8 +116,12 @@ impl<const C: usize> Gatherer<'_, C> {
             }
             light.add(&landing.scattered.weighted(weight * PI));
             if self.maps.is_none() {
-                // Light that came through specular surfaces alone; with maps it is in the caustic map.
-                let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
+                // Light that came through specular surfaces alone; with maps it is in the caustic map. Rays that were bent ask
+                // for it, and those that met a lamp there are counted: few of them do not show what more would find.
+                let met = f64::from(u8::from(!landing.emitted.is_zero()));
+                let asked = f64::from(u8::from(landing.bent));
+                let contribution =
+                    Light { irradiance: landing.emitted * PI, photons: met, reads: asked, ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
             let Some((hit, seen, carried)) = landing.matte else {

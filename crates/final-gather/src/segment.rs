@@ -46,6 +46,8 @@ pub struct Landing<const C: usize> {
     pub distance: f64,
     /// True if a rough surface was met, which shows light from anywhere: darkness along this ray proves nothing.
     pub met_rough: bool,
+    /// True if a surface bent the ray: a lamp behind that is met by chance.
+    pub bent: bool,
 }
 
 /// A lamp met by a ray.
@@ -115,6 +117,7 @@ pub fn follow<const C: usize>(
         segments: start.used,
         distance: 0.0,
         met_rough: false,
+        bent: false,
     };
     let mut walk = Walk {
         world,
@@ -277,7 +280,7 @@ impl<const C: usize> Walk<'_, '_, C> {
         self.ray = ray;
         self.from = Some(hit.point.primitive);
         self.rough_pdf = rough_pdf;
-        (self.bent, self.turned) = (true, true);
+        (self.bent, self.turned, self.landing.bent) = (true, true, true);
     }
 
     /// Adds what a rough surface shows of one lamp.

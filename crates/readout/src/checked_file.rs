@@ -10,6 +10,15 @@ use xxhash_rust::xxh3::Xxh3;
 
 use crate::map_file::{MAGIC, MapFileError};
 
+/// The name under which a file is written before it takes its own: beside that, hidden, and of this process alone, so that
+/// nothing of the user's is in its way.
+pub fn partial_name(path: &Path) -> PathBuf {
+    let mut name = std::ffi::OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}.partial", std::process::id()));
+    path.with_file_name(name)
+}
+
 /// A file being written and the hash of what is in it so far.
 pub(crate) struct Hashing {
     file: io::BufWriter<File>,
@@ -19,7 +28,7 @@ pub(crate) struct Hashing {
 impl Hashing {
     /// Creates the file.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
-        Ok(Self { file: io::BufWriter::new(File::create(path)?), hash: Xxh3::new() })
+        Ok(Self { file: io::BufWriter::new(File::create_new(path)?), hash: Xxh3::new() })
     }
 
     pub(crate) fn put(&mut self, bytes: &[u8]) -> io::Result<()> {

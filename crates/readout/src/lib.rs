@@ -24,6 +24,7 @@ mod schedule;
 mod session;
 
 pub use cells::{Cell, Target};
+pub use checked_file::partial_name;
 pub use identity::scene_identity;
 pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};

@@ -14,7 +14,7 @@ use photonlab_trace::{Book, Classes, Ledger, Limits, SurfaceBook, VolumeRecords}
 
 use crate::{
     PassPhotons,
-    checked_file::{Bytes, Hashing},
+    checked_file::{Bytes, Hashing, partial_name},
 };
 
 pub(crate) const MAGIC: &[u8; 8] = b"PHOTONLB";
@@ -76,7 +76,7 @@ impl<const C: usize> MapFile<C> {
     /// Writes the map beside its final name and renames it, so that no half-written map is left.
     pub fn save(&self, path: &Path) -> Result<(), MapFileError> {
         let io = |cause| MapFileError::Io { path: path.into(), cause };
-        let partial = path.with_extension("partial");
+        let partial = partial_name(path);
         let written = self.write(&partial).and_then(|()| std::fs::rename(&partial, path));
         written.map_err(|cause| {
             let _ = std::fs::remove_file(&partial);

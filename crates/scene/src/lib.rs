@@ -4,6 +4,7 @@
 //! rays; [`Needs`] says what must be modelled to read it.
 #![forbid(unsafe_code)]
 
+mod absent;
 mod accelerator;
 mod ball;
 mod bsdf;

@@ -75,7 +75,7 @@ impl LuminaireError {
 /// is opened, since opening a pipe waits.
 pub fn read_luminaire(path: &Path) -> Result<Luminaire, LuminaireError> {
     if !path.is_file() {
-        return Err(LuminaireError::new("is not there", "name a file, relative to the scene's"));
+        return Err(LuminaireError::new(crate::absent::absent(path), "name a file, relative to the scene's"));
     }
     let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
     let format = match extension.as_deref().and_then(|extension| extension.to_str()) {

@@ -76,7 +76,7 @@ fn from_file(element: &Element, file: &str, range: Range) -> Result<Arc<Curve>, 
     let path = beside(element, file);
     let wrong = |what: String, mend: &str| element.error(format!("{}: {what}", path.display()), mend);
     if !path.is_file() {
-        return Err(wrong("is not there".into(), "name a text file, relative to the scene's"));
+        return Err(wrong(crate::absent::absent(&path).into(), "name a text file, relative to the scene's"));
     }
     if path.metadata().is_ok_and(|about| about.len() > LARGEST_FILE) {
         return Err(wrong(format!("has more than {LARGEST_FILE} bytes"), "thin it out"));

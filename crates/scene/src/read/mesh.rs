@@ -65,7 +65,7 @@ pub(super) fn mesh(object: &mut Object, builder: &mut Builder) -> Result<Geometr
 fn open(element: &Element, name: &str) -> Result<BufReader<File>, Fault> {
     let path = beside(element, name);
     if !path.is_file() {
-        return Err(Fault::new("is not there", "name a file, relative to the scene's"));
+        return Err(Fault::new(crate::absent::absent(&path), "name a file, relative to the scene's"));
     }
     let unreadable = |error: std::io::Error| Fault::new(format!("cannot be read: {error}"), "give a readable file");
     let file = File::open(&path).map_err(unreadable)?;

@@ -18,7 +18,7 @@ pub(super) fn picture(element: &Element) -> Result<(usize, usize, Vec<[f32; 3]>)
     let path = beside(element, name);
     let about = |fault: Fault| element.error(format!("{} {}", quote(name), fault.what), fault.mend);
     if !path.is_file() {
-        return Err(about(Fault::new("is not there", "name a file, relative to the scene's")));
+        return Err(about(Fault::new(crate::absent::absent(&path), "name a file, relative to the scene's")));
     }
     if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("exr")) {
         return Err(about(Fault::new(

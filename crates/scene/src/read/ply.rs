@@ -66,9 +66,16 @@ impl PropertyAccess for Polygon {
     }
 }
 
+/// What the parser says to people, without what it says to its makers.
+fn in_one_line(error: &str) -> String {
+    let words = error.split("\n\tError:").next().unwrap_or(error);
+    words.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// Reads a mesh, text or binary; polygons are cut into fans.
 pub(super) fn read_ply(file: BufReader<File>) -> Result<Faces, Fault> {
-    let broken = |error: String| Fault::new(format!("is no valid PLY file: {error}"), "export it again");
+    let broken =
+        |error: String| Fault::new(format!("is no valid PLY file: {}", in_one_line(&error)), "export it again");
     let mut reader = Reader::new(file);
     let header = Parser::<DefaultElement>::new().read_header(&mut reader).map_err(|e| broken(e.to_string()))?;
     let (mut vertices, mut polygons) = (Vec::new(), Vec::new());
