@@ -158,6 +158,18 @@ fn an_output_that_cannot_be_written_leaves_nothing() {
 }
 
 #[test]
+fn an_output_replaces_no_device_and_no_other_file() {
+    let (program, cube) = (program(), scene("cube.xml"));
+    program.write("photons.partial", "mine");
+    program.write("photons.map.partial", "mine too");
+    program.succeed(&format!("map build {cube} -o photons.map --photons 2000 --passes 2"));
+    assert_eq!(program.bytes("photons.partial"), b"mine");
+    assert_eq!(program.bytes("photons.map.partial"), b"mine too");
+    #[cfg(unix)]
+    fails(&program, &format!("map build {cube} -o /dev/null"), 2, &["this is a device or a pipe"]);
+}
+
+#[test]
 fn a_map_that_does_not_fit_is_refused() {
     let program = program();
     let (cube, sphere) = (scene("cube.xml"), scene("integrating-sphere.xml"));
