@@ -10,6 +10,9 @@ const FEWEST_PHOTONS: f64 = 30.0;
 /// A reading of which more than this share was gathered across an edge is not certified.
 const RESOLVED: f64 = 1e-3;
 
+/// A reading of which light that rays meet too seldom to show may be more than this share is not certified.
+const RARE: f64 = 0.05;
+
 /// A reading whose kernel bias is surely more than this share of it is not certified. The bound is the bias's leading order: on a
 /// round peak (a Gaussian) of this bias it falls short by one per cent of the reading, on sharper ones by many times itself.
 const STRAIGHT: f64 = 0.05;
@@ -45,11 +48,19 @@ pub(crate) fn objections<const C: usize>(result: &CellResult<C>, channel: usize,
             100.0 * bend
         ));
     }
-    if result.asked_photons && result.photons < FEWEST_PHOTONS {
+    if result.asked_photons && result.photons < FEWEST_PHOTONS && result.brightest_glint.is_none() {
         objections.push(format!(
-            "only {} photons were found near what it looks at, or paths that met a lamp behind specular surfaces: too few to tell \
-             what light they stand for",
+            "only {} photons were found near what it looks at: too few to tell what light they stand for",
             result.photons
+        ));
+    }
+    let (rare, value) = (result.rare_bound(channel), result.value[channel].mean().unwrap_or(0.0).abs());
+    if rare > RARE * value {
+        objections.push(format!(
+            "{} of {} paths met a lamp behind specular surfaces, and what more of them would find may add {:.0} % of the value",
+            result.glints,
+            result.rays,
+            100.0 * rare / value
         ));
     }
     objections

@@ -55,6 +55,8 @@ pub const SUITE: &[(&str, usize)] = &[
     ("distant meters", 3),
     ("portal, sky component", 24),
     ("mask before a lamp", 1),
+    ("glazed opening", 8),
+    ("near lamp behind glass", 3),
     ("portal, photons", 3),
     ("portal, one over another", 8),
     ("portal, placed badly", 12),

@@ -63,7 +63,7 @@ impl<const C: usize> Walk<'_, '_, C> {
         let at = self.ray.at(distance);
         let direction = scatter(volume.phase, self.ray.direction, stream);
         let pdf = phase_pdf_solid_angle(volume.phase, direction.dot(self.ray.direction));
-        let met = self.lamps_straight_ahead(&Ray::new(at, direction), pdf);
+        let met = self.lamps_straight_ahead(&Ray::new(at, direction), pdf, limits);
         self.landing.scattered.irradiance += self.weight * factor * volume.albedo * met;
     }
 
@@ -87,35 +87,46 @@ impl<const C: usize> Walk<'_, '_, C> {
             if counts(along) {
                 let pdf = line.pdf(along) + volume.flight_pdf(self.weight, along);
                 let share = volume.transmittance(along) * volume.sigma_t * volume.albedo * (1.0 / pdf);
-                self.draw_lamp(volume, lamp, along, share, stream);
+                self.draw_lamp(volume, lamp, (along, share), limits, stream);
             }
         }
         let flight = volume.fly(self.weight, reach, stream);
         if let (Some(lamp), Some(along)) = (lamp, flight.collision.filter(|&along| counts(along))) {
             let by_flight = volume.flight_pdf(self.weight, along);
             let balance = around.map_or(1.0, |line| by_flight / (by_flight + line.pdf(along)));
-            self.draw_lamp(volume, lamp, along, flight.factor * volume.albedo * balance, stream);
+            let share = flight.factor * volume.albedo * balance;
+            self.draw_lamp(volume, lamp, (along, share), limits, stream);
         }
         flight
     }
 
     /// Counts what a lamp sends to a place along the ray, of which a share is scattered and arrives.
-    fn draw_lamp(&mut self, volume: &Volume<C>, lamp: usize, along: f64, share: Colour<C>, stream: &mut Stream) {
+    fn draw_lamp(
+        &mut self,
+        volume: &Volume<C>,
+        lamp: usize,
+        (along, share): (f64, Colour<C>),
+        limits: &EyeLimits,
+        stream: &mut Stream,
+    ) {
         let at = self.ray.at(along);
         let Some(draw) = LightDraw::of_lamp(self.world, &self.optics.lamps, lamp, at, stream.next2()) else { return };
         let phase = phase_pdf_solid_angle(volume.phase, draw.direction.dot(self.ray.direction));
         let pdf = draw.pdf_solid_angle;
         let balance = if pdf > 0.0 { pdf / (pdf + phase) } else { 1.0 };
-        let reaches = draw.reaches(self.world, self.optics, at, None, self.medium);
+        let (reaches, panes) = draw.reaches(self.world, self.optics, at, None, self.medium);
+        if !limits.allows(self.landing.segments + 2 + panes) {
+            return;
+        }
         self.landing.scattered.irradiance += self.weight * share * draw.radiance_over_pdf * reaches * (phase * balance);
     }
 
     /// What lamps straight ahead send, each with the weight that the balance heuristic gives to a ray drawn with this density.
-    fn lamps_straight_ahead(&self, ray: &Ray, pdf: f64) -> Colour<C> {
+    fn lamps_straight_ahead(&self, ray: &Ray, pdf: f64, limits: &EyeLimits) -> Colour<C> {
         let (world, lamps) = (self.world, &self.optics.lamps);
         let (mut rest, mut from, mut medium) = (*ray, None, self.medium);
-        let (mut share, mut found) = (Colour::ONE, Colour::ZERO);
-        while !share.is_zero() {
+        let (mut share, mut found, mut panes) = (Colour::ONE, Colour::ZERO, 0);
+        while !share.is_zero() && limits.allows(self.landing.segments + 2 + panes) {
             let hit = world.cast(&rest, from, f64::INFINITY);
             if let Some(medium) = medium {
                 let flown = hit.map_or(f64::INFINITY, |hit| hit.distance);
@@ -128,13 +139,15 @@ impl<const C: usize> Walk<'_, '_, C> {
                 break;
             };
             let (primitive, position) = (hit.point.primitive, hit.point.position);
-            let open = world.openness(primitive);
+            let (straight, segments) = self.optics.straight(world, &rest, &hit);
             let radiance = lamps.emitted(primitive, hit.front);
             if !radiance.is_zero() {
                 let drawn = balance_pdf(world, lamps, primitive, ray.origin, position);
-                found += radiance * share * ((1.0 - open) * pdf / (pdf + drawn));
+                // Shapes that shine are no masks and no panes.
+                found += radiance * share * (pdf / (pdf + drawn));
             }
-            share = share * open;
+            share = share * straight;
+            panes += segments;
             medium = world.medium_beside(primitive, !hit.front, medium);
             (rest, from) = (Ray::new(position, ray.direction), Some(primitive));
         }

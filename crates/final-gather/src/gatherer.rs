@@ -115,13 +115,10 @@ impl<const C: usize> Gatherer<'_, C> {
                 light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
             }
             light.add(&landing.scattered.weighted(weight * PI));
+            light.glints += f64::from(u8::from(!landing.emitted.is_zero()));
             if self.maps.is_none() {
-                // Light that came through specular surfaces alone; with maps it is in the caustic map. Rays that were bent ask
-                // for it, and those that met a lamp there are counted: few of them do not show what more would find.
-                let met = f64::from(u8::from(!landing.emitted.is_zero()));
-                let asked = f64::from(u8::from(landing.bent));
-                let contribution =
-                    Light { irradiance: landing.emitted * PI, photons: met, reads: asked, ..Light::default() };
+                // Light that came through specular surfaces alone; with maps it is in the caustic map.
+                let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
                 light.add(&contribution.weighted(weight));
             }
             let Some((hit, seen, carried)) = landing.matte else {
@@ -177,6 +174,9 @@ impl<const C: usize> Gatherer<'_, C> {
         let Some(sample) = sample_direct(self.world, self.optics, at, sight, xi) else {
             return Light::default();
         };
+        if !self.limits.allows(used + 1 + sample.panes) {
+            return Light::default();
+        }
         let cosine = sight.normals.cosine(sample.direction);
         let by_chance = warp::cosine_hemisphere_pdf_solid_angle(cosine);
         let balance = match sample.pdf_solid_angle {
@@ -238,6 +238,7 @@ impl<const C: usize> Gatherer<'_, C> {
             unresolved: Colour::ZERO,
             photons: estimate.photons as f64,
             reads: 1.0,
+            glints: 0.0,
         }
     }
 }

@@ -19,6 +19,8 @@ pub struct Light<const C: usize> {
     pub photons: f64,
     /// Times that a map was read. Where none was, no photon was asked for: all light came by rays to lamps.
     pub reads: f64,
+    /// Rays from diffuse points that met a lamp behind specular surfaces, by chance.
+    pub glints: f64,
 }
 
 impl<const C: usize> Light<C> {
@@ -30,6 +32,7 @@ impl<const C: usize> Light<C> {
         self.unresolved += other.unresolved;
         self.photons += other.photons;
         self.reads += other.reads;
+        self.glints += other.glints;
     }
 
     /// Weights flux quantities; the photons that were looked at stay.
@@ -41,6 +44,7 @@ impl<const C: usize> Light<C> {
             unresolved: self.unresolved * weight,
             photons: self.photons,
             reads: self.reads,
+            glints: self.glints,
         }
     }
 
@@ -53,6 +57,7 @@ impl<const C: usize> Light<C> {
             unresolved: palette.develop(self.unresolved),
             photons: self.photons,
             reads: self.reads,
+            glints: self.glints,
         }
     }
 
@@ -61,6 +66,7 @@ impl<const C: usize> Light<C> {
         Self {
             photons: self.photons / samples,
             reads: self.reads / samples,
+            glints: self.glints / samples,
             noise: self.noise / samples,
             ..self.weighted(Colour::splat(1.0 / samples))
         }

@@ -46,8 +46,6 @@ pub struct Landing<const C: usize> {
     pub distance: f64,
     /// True if a rough surface was met, which shows light from anywhere: darkness along this ray proves nothing.
     pub met_rough: bool,
-    /// True if a surface bent the ray: a lamp behind that is met by chance.
-    pub bent: bool,
 }
 
 /// A lamp met by a ray.
@@ -117,7 +115,6 @@ pub fn follow<const C: usize>(
         segments: start.used,
         distance: 0.0,
         met_rough: false,
-        bent: false,
     };
     let mut walk = Walk {
         world,
@@ -183,7 +180,7 @@ pub fn follow<const C: usize>(
             Interaction::Followed(followed) => {
                 walk.arrive(&hit);
                 let seeks = walk.seeks_lamps(start.seeks_lamps) && limits.allows(walk.landing.segments + 1);
-                if !walk.go_on(&hit, followed, seeks, stream) {
+                if !walk.go_on(&hit, followed, seeks, limits, stream) {
                     break;
                 }
             }
@@ -192,7 +189,7 @@ pub fn follow<const C: usize>(
                 let seeks = walk.seeks_lamps(start.seeks_lamps) && limits.allows(walk.landing.segments + 1);
                 let (followed, factor) = dispersive.settle(walk.weight, stream);
                 walk.weight = walk.weight * factor;
-                if !walk.go_on(&hit, &followed, seeks, stream) {
+                if !walk.go_on(&hit, &followed, seeks, limits, stream) {
                     break;
                 }
             }
@@ -251,11 +248,22 @@ impl<const C: usize> Walk<'_, '_, C> {
     }
 
     /// Draws how the ray goes on, after looking for lamps if it `seeks` any; false if it ends.
-    fn go_on(&mut self, hit: &Hit, followed: &Followed<C>, seeks: bool, stream: &mut Stream) -> bool {
+    fn go_on(
+        &mut self,
+        hit: &Hit,
+        followed: &Followed<C>,
+        seeks: bool,
+        limits: &EyeLimits,
+        stream: &mut Stream,
+    ) -> bool {
         if seeks {
-            self.seek_lamp(hit, followed, stream);
+            self.seek_lamp(hit, followed, limits, stream);
         }
         let Some(onward) = followed.draw(&self.ray, hit, stream) else { return false };
+        if onward.straight && self.optics.is_pane(self.world, hit.point.primitive) {
+            self.pass(hit, onward.share);
+            return true;
+        }
         let pdf = onward.pdf_solid_angle.filter(|_| seeks);
         self.turn(hit, onward.ray, onward.share * onward.compression, pdf);
         true
@@ -271,6 +279,14 @@ impl<const C: usize> Walk<'_, '_, C> {
         }
     }
 
+    /// Goes on straight through a pane: whatever is seen behind is seen from where it was.
+    fn pass(&mut self, hit: &Hit, share: Colour<C>) {
+        self.weight = self.weight * share;
+        self.medium = self.world.medium_beside(hit.point.primitive, !hit.front, self.medium);
+        self.ray = Ray::new(hit.point.position, self.ray.direction);
+        self.from = Some(hit.point.primitive);
+    }
+
     /// Goes on along another ray.
     fn turn(&mut self, hit: &Hit, ray: Ray, share: Colour<C>, rough_pdf: Option<f64>) {
         self.weight = self.weight * share;
@@ -280,11 +296,11 @@ impl<const C: usize> Walk<'_, '_, C> {
         self.ray = ray;
         self.from = Some(hit.point.primitive);
         self.rough_pdf = rough_pdf;
-        (self.bent, self.turned, self.landing.bent) = (true, true, true);
+        (self.bent, self.turned) = (true, true);
     }
 
     /// Adds what a rough surface shows of one lamp.
-    fn seek_lamp(&mut self, hit: &Hit, followed: &Followed<C>, stream: &mut Stream) {
+    fn seek_lamp(&mut self, hit: &Hit, followed: &Followed<C>, limits: &EyeLimits, stream: &mut Stream) {
         let Followed::Rough(_) = followed else { return };
         self.landing.met_rough = true;
         let xi = [stream.next(), stream.next(), stream.next()];
@@ -298,7 +314,10 @@ impl<const C: usize> Walk<'_, '_, C> {
         let front = draw.direction.dot(hit.point.normal) > 0.0;
         let medium = self.world.medium_beside(hit.point.primitive, front, self.medium);
         let at = hit.point.position;
-        let reaches = draw.reaches(self.world, self.optics, at, Some(hit.point.primitive), medium);
+        let (reaches, panes) = draw.reaches(self.world, self.optics, at, Some(hit.point.primitive), medium);
+        if !limits.allows(self.landing.segments + 1 + panes) {
+            return;
+        }
         self.find(self.weight * shown * draw.radiance_over_pdf * reaches * balance);
     }
 }

@@ -1,6 +1,6 @@
 //! What is read: one pixel, or one cell of a meter.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use glam::{DMat3, DVec2, DVec3};
 use photonlab_photometry::Quantity;
@@ -76,6 +76,16 @@ impl Cell {
         match self.target {
             Target::Patch { shape, film, flux: true } => world.cell_area(shape, self.cell, [film.width, film.height]),
             _ => 1.0,
+        }
+    }
+
+    /// What a radiance all around makes a cell read; `None` for pixels, which are too many and too coarse for bounds on what each
+    /// has missed.
+    pub(crate) fn all_around(&self, world: &World) -> Option<f64> {
+        match self.target {
+            Target::Patch { .. } => Some(PI * self.area_read(world)),
+            Target::Along(_) | Target::Distant { .. } => Some(1.0),
+            Target::Pixel { .. } | Target::Leaving { .. } => None,
         }
     }
 

@@ -169,7 +169,8 @@ impl<const C: usize> Look<'_, C> {
                     let mut one = self.read_map(at, &sight, used, seed.radius, scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
-                        let direct = sample_direct(self.world, self.optics, at, &sight, xi);
+                        let direct = sample_direct(self.world, self.optics, at, &sight, xi)
+                            .filter(|direct| self.limits().allows(used + 1 + direct.panes));
                         one.irradiance += direct.map_or(Colour::ZERO, |d| {
                             let weight = sight.weight(sight.normals.cosine(d.direction));
                             d.irradiance * (weight / (1.0 + seed.share * d.point_factor))
@@ -212,6 +213,7 @@ impl<const C: usize> Look<'_, C> {
             unresolved: if unresolved { found.irradiance.map(f64::abs) } else { Colour::ZERO },
             photons: found.photons as f64,
             reads: 1.0,
+            glints: 0.0,
         }
     }
 }

@@ -25,12 +25,34 @@ pub struct CellResult<const C: usize> {
     pub asked_photons: bool,
     /// True if every sample proved that there can be no light.
     pub dark: bool,
+    /// Rays from diffuse points that met a lamp behind specular surfaces, by chance, of all [`CellResult::rays`].
+    pub glints: f64,
+    /// Paths from the cell.
+    pub rays: f64,
+    /// The most that one such ray can add to a value, per channel: the brightest lamp all around. `None` where the method or the
+    /// scene knows no such light, or a lamp has no extent, which no ray meets.
+    pub brightest_glint: Option<Colour<C>>,
 }
+
+/// Glints, or photons, from which on their own spread says how many more there may be.
+pub(crate) const ENOUGH: f64 = 30.0;
+/// -ln of the probability with which a Poisson variable may exceed the bound of [`CellResult::rare_bound`]: 99 %.
+const RARE: f64 = 4.6;
 
 impl<const C: usize> Default for CellResult<C> {
     fn default() -> Self {
         let none = [Replicates::new(); C];
-        Self { value: none, bias: none, unresolved: none, photons: 0.0, asked_photons: false, dark: true }
+        Self {
+            value: none,
+            bias: none,
+            unresolved: none,
+            photons: 0.0,
+            asked_photons: false,
+            dark: true,
+            glints: 0.0,
+            rays: 0.0,
+            brightest_glint: None,
+        }
     }
 }
 
@@ -47,13 +69,30 @@ impl<const C: usize> CellResult<C> {
         self.dark &= dark;
     }
 
+    /// True if what light comes by way of specular surfaces is known by its own spread: enough photons or glints were found.
+    fn knows_glints(&self) -> bool {
+        self.glints >= ENOUGH || (self.asked_photons && self.photons >= ENOUGH)
+    }
+
+    /// Bound on light of a channel that comes by way of specular surfaces and that too few rays have met to show it in their
+    /// spread: of `rays` of which h met a lamp, 4.6 + sqrt(9.2 h) more may have been due (Chernoff; three for h = 0 at 95 % is
+    /// the rule of three), each of which brings at most the brightest lamp's radiance from all around.
+    pub fn rare_bound(&self, channel: usize) -> f64 {
+        match self.brightest_glint {
+            Some(brightest) if self.rays > 0.0 && !self.knows_glints() => {
+                (RARE + (2.0 * RARE * self.glints).sqrt()) / self.rays * brightest[channel]
+            }
+            _ => 0.0,
+        }
+    }
+
     /// True if no light was found and darkness was not proved.
     pub fn found_nothing(&self) -> bool {
         !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
     }
 
-    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, and three times
-    /// what was gathered across edges.
+    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, three times what was
+    /// gathered across edges, and [`CellResult::rare_bound`].
     pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
         let degrees = self.bias[channel].degrees_of_freedom();
         self.bias_bound_within(channel, if degrees > 0.0 { student_t_quantile(confidence, degrees) } else { 0.0 })
@@ -61,6 +100,11 @@ impl<const C: usize> CellResult<C> {
 
     /// The same from a quantile of Student's t, which one search finds for all cells of an image.
     pub fn bias_bound_within(&self, channel: usize, quantile: f64) -> f64 {
+        self.lasting_bias_within(channel, quantile) + self.rare_bound(channel)
+    }
+
+    /// The part of it that more rays of the same do not mend.
+    pub fn lasting_bias_within(&self, channel: usize, quantile: f64) -> f64 {
         let bias = &self.bias[channel];
         bias.mean().unwrap_or(0.0).abs()
             + quantile * bias.std_error().unwrap_or(0.0)
@@ -130,7 +174,8 @@ impl ErrorOver {
         self.combine(cells, results, confidence, |cell, c, t| {
             let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
             let known = cell.bias[c].mean().unwrap_or(0.0).abs()
-                + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs();
+                + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs()
+                + cell.rare_bound(c);
             t * noise + known
         })
     }

@@ -8,8 +8,8 @@
 use std::f64::consts::PI;
 
 use photonlab_photometry::Colour;
-use photonlab_sampling::{LampKind, Lamps, Stream};
-use photonlab_scene::World;
+use photonlab_sampling::{Emission, LampKind, Lamps, Optics, Stream};
+use photonlab_scene::{Hit, Ray, World};
 use rayon::prelude::*;
 
 use crate::{Cell, Target};
@@ -66,15 +66,16 @@ fn rays_per_point(size: [u32; 2]) -> f64 {
 /// `points` is the number of points per cell.
 pub(crate) fn probe<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
+    optics: &Optics<C>,
     cells: &[Cell],
     points: u64,
+    max_segments: Option<u32>,
     stream: impl Fn(u64) -> Stream + Sync,
 ) -> Vec<Colour<C>> {
     let mut found = vec![Colour::ZERO; cells.len()];
     let Some(Target::Patch { shape, film, .. }) = cells.first().map(|cell| &cell.target) else { return found };
     let size = [film.width, film.height];
-    if !is_near_a_lamp(world, lamps, *shape, size) {
+    if !is_near_a_lamp(world, &optics.lamps, *shape, size) {
         return found;
     }
     let rays = points * cells.len() as u64;
@@ -82,7 +83,7 @@ pub(crate) fn probe<const C: usize>(
         .into_par_iter()
         .map(|block| {
             let each = block * BLOCK..((block + 1) * BLOCK).min(rays);
-            each.filter_map(|ray| arrival(world, lamps, *shape, size, &mut stream(ray))).collect()
+            each.filter_map(|ray| arrival(world, optics, (*shape, size), max_segments, &mut stream(ray))).collect()
         })
         .collect();
     for (cell, irradiance) in arrivals.into_iter().flatten() {
@@ -94,29 +95,52 @@ pub(crate) fn probe<const C: usize>(
 /// Where one ray from a lamp lands on the shape: the cell and its weighted contribution.
 fn arrival<const C: usize>(
     world: &World,
-    lamps: &Lamps<C>,
-    shape: usize,
-    size: [u32; 2],
+    optics: &Optics<C>,
+    (shape, size): (usize, [u32; 2]),
+    limits: Option<u32>,
     stream: &mut Stream,
 ) -> Option<(usize, Colour<C>)> {
+    let lamps = &optics.lamps;
     let chosen = lamps.choose(stream.next());
     let lamp = &lamps.lamps[chosen];
     if !matches!(lamp.kind, LampKind::Point { .. }) {
         return None;
     }
     let emission = lamp.emit(world, stream);
-    let hit = world.cast(&emission.ray, emission.from, f64::INFINITY).filter(|hit| hit.front)?;
-    if world.primitives[hit.point.primitive as usize].shape as usize != shape {
-        return None;
-    }
+    let (hit, arrives, distance) = straight_to(world, optics, shape, &emission, limits)?;
     let uv = world.uv(&hit.point);
     let place = |x: f64, count: u32| ((x * f64::from(count)) as u32).min(count - 1);
     let [column, row] = [place(uv.x, size[0]), place(uv.y, size[1])];
     let area = world.cell_area(shape, [column, row], size);
     let cosine = -emission.ray.direction.dot(hit.point.normal);
     let towards = lamp.point_emission(emission.ray.direction);
-    let odds = rays_per_point(size) * area * cosine * towards / (4.0 * PI * hit.distance * hit.distance);
+    let odds = rays_per_point(size) * area * cosine * towards / (4.0 * PI * distance * distance);
     let weight = odds / (1.0 + odds);
-    let irradiance = lamp.flux * (weight / (lamps.probability[chosen] * area));
+    let irradiance = lamp.flux * arrives * (weight / (lamps.probability[chosen] * area));
     Some(((row * size[0] + column) as usize, irradiance))
+}
+
+/// Where a lamp's ray meets the front of a shape, through what masks and panes leave of it, if nothing else is between; and how far
+/// it flew.
+fn straight_to<const C: usize>(
+    world: &World,
+    optics: &Optics<C>,
+    shape: usize,
+    emission: &Emission<C>,
+    max_segments: Option<u32>,
+) -> Option<(Hit, Colour<C>, f64)> {
+    let (mut ray, mut from, mut share, mut flown) = (emission.ray, emission.from, Colour::ONE, 0.0);
+    let mut segments = 1;
+    while !share.is_zero() && max_segments.is_none_or(|most| segments <= most) {
+        let hit = world.cast(&ray, from, f64::INFINITY)?;
+        flown += hit.distance;
+        if hit.front && world.primitives[hit.point.primitive as usize].shape as usize == shape {
+            return Some((hit, share, flown));
+        }
+        let (straight, ended) = optics.straight(world, &ray, &hit);
+        share = share * straight;
+        segments += ended;
+        (ray, from) = (Ray::new(hit.point.position, ray.direction), Some(hit.point.primitive));
+    }
+    None
 }

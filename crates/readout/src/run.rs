@@ -1,6 +1,7 @@
 //! What a run has found so far.
 
 use photonlab_measure::Stopped;
+use photonlab_photometry::Colour;
 use photonlab_trace::Ledger;
 
 use crate::{CellResult, Method, Outcome, Session, adaptive::CellRadius, maps::Radii};
@@ -19,6 +20,8 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) pilots: u64,
     pub(crate) samples: u64,
     pub(crate) out_of_reach: bool,
+    /// Found once: see [`Session::brightest_glint`].
+    pub(crate) brightest_glint: Option<Option<Colour<C>>>,
 }
 
 impl<const C: usize> Run<C> {
@@ -34,6 +37,7 @@ impl<const C: usize> Run<C> {
             pilots: 0,
             samples: 0,
             out_of_reach: false,
+            brightest_glint: None,
         }
     }
 

@@ -297,6 +297,7 @@ impl<const C: usize> Session<'_, C> {
                 sum
             })
             .collect();
+        let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
         let probed = self.probes(cells, optics, number as u32, samples);
         for ((index, parts), probed) in found.chunks(blocks as usize).enumerate().zip(probed) {
             let mut light = Light::default();
@@ -313,7 +314,12 @@ impl<const C: usize> Session<'_, C> {
             }
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
             let mean = mean.developed(&optics.palette);
-            run.cells[index].push(&mean, light.photons, parts.iter().all(|part| part.dark));
+            let cell = &mut run.cells[index];
+            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
+            cell.glints += light.glints;
+            cell.rays += (samples * u64::from(self.settings.gather_rays)) as f64;
+            cell.brightest_glint =
+                brightest_glint.and_then(|radiance| Some(radiance * cells[index].all_around(self.world)?));
         }
         run.passes += 1;
         run.samples += samples;
@@ -339,6 +345,17 @@ impl<const C: usize> Session<'_, C> {
         Ok(())
     }
 
+    /// The largest radiance that a ray can find that meets a lamp behind specular surfaces by chance; `None` if none can be met so,
+    /// or the method sends no such rays.
+    pub(crate) fn brightest_glint(&self) -> Option<Colour<C>> {
+        let sends = matches!(self.settings.method, Method::Path | Method::FinalGather { .. });
+        if !sends || !self.needs.caustic {
+            return None;
+        }
+        let optics = self.optics.any();
+        Some(optics.palette.develop(optics.lamps.brightest()?))
+    }
+
     /// No radius grows beyond this, metres: a quarter of the scene.
     fn largest_radius(&self) -> f64 {
         let (low, high) = self.world.bounds();
@@ -354,7 +371,7 @@ impl<const C: usize> Session<'_, C> {
         of_sensors
             .flat_map(|of_sensor| {
                 let number = of_sensor[0].sensor as u64;
-                probe(self.world, &optics.lamps, of_sensor, points, |ray| {
+                probe(self.world, optics, of_sensor, points, self.settings.limits.max_segments, |ray| {
                     Stream::new(self.settings.seed, Purpose::Probes, pass, number << 44 | ray)
                 })
             })

@@ -127,7 +127,7 @@ impl<const C: usize> LightDraw<C> {
     }
 
     /// The share of the light that reaches a point on a primitive or in the open, in a medium: 0 where something stands
-    /// between, less than 1 behind masks and in media.
+    /// between, less than 1 behind masks and panes and in media; and the panes that it passes, a segment each.
     pub fn reaches(
         &self,
         world: &World,
@@ -135,7 +135,7 @@ impl<const C: usize> LightDraw<C> {
         position: DVec3,
         on: Option<u32>,
         medium: Option<u32>,
-    ) -> Colour<C> {
+    ) -> (Colour<C>, u32) {
         optics.passes(world, &Ray::new(position, self.direction), on, medium, self.distance, self.on)
     }
 }
@@ -145,6 +145,8 @@ impl<const C: usize> LightDraw<C> {
 pub struct DirectSample<const C: usize> {
     /// Towards the lamp, unit.
     pub direction: DVec3,
+    /// Panes between, each of which ends a segment.
+    pub panes: u32,
     /// Irradiance on the point's side, all densities divided out: its mean is the direct irradiance.
     pub irradiance: Colour<C>,
     /// Density per solid angle of the draw, the choice of the lamp included, where rays that meet the lamp by chance must
@@ -170,9 +172,10 @@ pub fn sample_direct<const C: usize>(
     if cosine <= 0.0 {
         return None;
     }
-    let reaches = draw.reaches(world, optics, point.position, Some(point.primitive), sight.medium);
+    let (reaches, panes) = draw.reaches(world, optics, point.position, Some(point.primitive), sight.medium);
     (!reaches.is_zero()).then(|| DirectSample {
         direction: draw.direction,
+        panes,
         irradiance: draw.radiance_over_pdf * reaches * cosine,
         pdf_solid_angle: if draw.alone { 0.0 } else { draw.pdf_solid_angle },
         point_factor: if draw.point_emission > 0.0 {

@@ -54,6 +54,21 @@ impl<const C: usize> Environment<C> {
         }
     }
 
+    /// The largest radiance, of a sky as a close look finds it; in each channel.
+    pub(crate) fn brightest(&self) -> Colour<C> {
+        const LOOKS: usize = 128;
+        match &self.kind {
+            Kind::Constant(radiance) => *radiance,
+            Kind::Sky { radiance, sky } => {
+                let at = |i: usize, of: usize| (i as f64 + 0.5) / of as f64;
+                let looks = (0..LOOKS * LOOKS).map(|i| [at(i % LOOKS, LOOKS), at(i / LOOKS, LOOKS)]);
+                let luminance = |xi| sky.relative_luminance(warp::square_to_uniform_cone(xi, sky.zenith, 1.0));
+                *radiance * looks.map(luminance).fold(0.0, f64::max)
+            }
+            Kind::Map(table) => table.brightest(),
+        }
+    }
+
     /// True if it may shine from small places that a coarse look misses.
     pub(crate) fn has_details(&self) -> bool {
         matches!(self.kind, Kind::Map(_))

@@ -38,6 +38,11 @@ impl<const C: usize> Table<C> {
         table
     }
 
+    /// The largest of the pixels, in each channel.
+    pub(crate) fn brightest(&self) -> Colour<C> {
+        self.pixels.iter().fold(Colour::ZERO, |most, pixel| Colour(std::array::from_fn(|c| most[c].max(pixel[c]))))
+    }
+
     /// Bands of cells between rows; a single row makes one band.
     fn bands(&self) -> usize {
         self.rows.max(2) - 1

@@ -28,6 +28,20 @@ pub struct Lamps<const C: usize> {
 }
 
 impl<const C: usize> Lamps<C> {
+    /// The largest radiance of any lamp in each channel; `None` if one has no extent, which no ray meets by chance.
+    pub fn brightest(&self) -> Option<Colour<C>> {
+        self.lamps.iter().try_fold(Colour::ZERO, |most: Colour<C>, lamp| {
+            let radiance = match &lamp.kind {
+                LampKind::Point { .. } | LampKind::Directional { .. } => return None,
+                LampKind::Environment { environment, .. } => environment.brightest(),
+                // What comes through it is the environment's.
+                LampKind::Portal { .. } => Colour::ZERO,
+                LampKind::Area { radiance, .. } | LampKind::Faces { radiance, .. } => *radiance,
+            };
+            Some(Colour(std::array::from_fn(|c| most[c].max(radiance[c]))))
+        })
+    }
+
     /// Collects the lamps of a scene.
     pub fn new(world: &World, palette: &Palette<C>) -> Self {
         let mut lamps: Vec<Lamp<C>> = world

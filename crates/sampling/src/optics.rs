@@ -1,7 +1,7 @@
 //! What a scene does to light, in the channels in which it is followed.
 
 use photonlab_photometry::{Colour, Palette};
-use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, World};
+use photonlab_scene::{Bsdf, Conductor, Dielectric, Hit, Ray, Shape, World};
 
 use crate::{
     Dispersive, FacetMaterial, Facets, Followed, Interaction, Lamps, Matte, Rough, Specular, Volume, compiled::maker,
@@ -16,6 +16,8 @@ pub struct Optics<const C: usize> {
     pub lamps: Lamps<C>,
     /// By shape.
     coatings: Vec<Coating<C>>,
+    /// True if any shape is a pane.
+    has_panes: bool,
     /// By medium.
     volumes: Vec<Volume<C>>,
 }
@@ -27,6 +29,8 @@ struct Coating<const C: usize> {
     back: Interaction<C>,
     /// Share of light that meets the surface at all.
     opacity: f64,
+    /// True if the shape is a lamp.
+    shines: bool,
 }
 
 impl<const C: usize> Optics<C> {
@@ -36,9 +40,12 @@ impl<const C: usize> Optics<C> {
     }
 
     pub(crate) fn make(world: &World, palette: Palette<C>) -> Self {
-        let coatings = world.scene.shapes.iter().map(|shape| Coating::new(&shape.bsdf, &palette)).collect();
+        let coating =
+            |shape: &Shape| Coating { shines: shape.radiance.is_some(), ..Coating::new(&shape.bsdf, &palette) };
+        let coatings: Vec<_> = world.scene.shapes.iter().map(coating).collect();
+        let has_panes = coatings.iter().any(Coating::is_pane);
         let volumes = world.scene.media.iter().map(|medium| Volume::new(medium, &palette)).collect();
-        Self { lamps: Lamps::new(world, &palette), coatings, volumes, palette }
+        Self { lamps: Lamps::new(world, &palette), coatings, has_panes, volumes, palette }
     }
 
     /// A medium of the scene.
@@ -46,8 +53,29 @@ impl<const C: usize> Optics<C> {
         &self.volumes[medium as usize]
     }
 
+    /// True if a primitive is a pane: a thin plate, with no mask over it, that does not shine. Light that it lets through goes on straight, so it is drawn
+    /// and classed as if it came directly; what it mirrors is caustic light.
+    pub fn is_pane(&self, world: &World, primitive: u32) -> bool {
+        self.coating_of(world, primitive).is_pane()
+    }
+
+    fn coating_of(&self, world: &World, primitive: u32) -> &Coating<C> {
+        &self.coatings[world.primitives[primitive as usize].shape as usize]
+    }
+
+    /// The share of light along a ray that goes on straight from a hit, and the segments that end there: what a mask leaves open
+    /// ends none, and a pane one.
+    pub fn straight(&self, world: &World, ray: &Ray, hit: &Hit) -> (Colour<C>, u32) {
+        let coating = self.coating_of(world, hit.point.primitive);
+        let side = if hit.front { &coating.front } else { &coating.back };
+        match side {
+            Interaction::Followed(Followed::Specular(plate)) if coating.is_pane() => (plate.straight(ray, hit), 1),
+            _ => (Colour::splat(world.openness(hit.point.primitive)), 0),
+        }
+    }
+
     /// The share of light that passes from the start of a ray, on the primitive `from` and in a medium, to a point at a distance
-    /// on `to`: what surfaces and media between leave of it.
+    /// on `to`: what surfaces and media between leave of it; and the panes that it passes.
     pub fn passes(
         &self,
         world: &World,
@@ -56,11 +84,12 @@ impl<const C: usize> Optics<C> {
         medium: Option<u32>,
         distance: f64,
         to: Option<u32>,
-    ) -> Colour<C> {
-        if self.volumes.is_empty() {
-            return Colour::splat(world.unblocked(ray, from, distance, to));
+    ) -> (Colour<C>, u32) {
+        if self.volumes.is_empty() && !self.has_panes {
+            return (Colour::splat(world.unblocked(ray, from, distance, to)), 0);
         }
         let (mut share, mut rest, mut ray, mut from, mut medium) = (Colour::ONE, distance, *ray, from, medium);
+        let mut panes = 0;
         loop {
             let arrived =
                 |hit: &Hit| Some(hit.point.primitive) == to && world.is_end(hit.point.primitive, hit.distance, rest);
@@ -69,10 +98,12 @@ impl<const C: usize> Optics<C> {
             if let Some(medium) = medium {
                 share = share * self.volume(medium).transmittance(flown);
             }
-            let Some(hit) = hit else { return share };
-            share = share * world.openness(hit.point.primitive);
+            let Some(hit) = hit else { return (share, panes) };
+            let (straight, segments) = self.straight(world, &ray, &hit);
+            share = share * straight;
+            panes += segments;
             if share.is_zero() {
-                return share;
+                return (share, panes);
             }
             medium = world.medium_beside(hit.point.primitive, !hit.front, medium);
             rest -= flown;
@@ -104,9 +135,16 @@ impl<const C: usize> Coating<C> {
         };
         match bsdf {
             Bsdf::Mask { opacity, surface } => Self { opacity: *opacity, ..Self::new(surface, palette) },
-            Bsdf::TwoSided { front, back } => Self { front: side(front, true), back: side(back, true), opacity: 1.0 },
-            bsdf => Self { front: side(bsdf, true), back: side(bsdf, false), opacity: 1.0 },
+            Bsdf::TwoSided { front, back } => {
+                Self { front: side(front, true), back: side(back, true), opacity: 1.0, shines: false }
+            }
+            bsdf => Self { front: side(bsdf, true), back: side(bsdf, false), opacity: 1.0, shines: false },
         }
+    }
+
+    fn is_pane(&self) -> bool {
+        let is_thin = |side| matches!(side, &Interaction::Followed(Followed::Specular(Specular::Thin { .. })));
+        !self.shines && self.opacity == 1.0 && (is_thin(&self.front) || is_thin(&self.back))
     }
 }
 

@@ -44,6 +44,8 @@ pub struct Onward<const C: usize> {
     pub tilt: f64,
     /// Density per solid angle of the direction; `None` for one with finite probability.
     pub pdf_solid_angle: Option<f64>,
+    /// True if it goes on as it came, through a thin plate.
+    pub straight: bool,
 }
 
 impl<const C: usize> Onward<C> {
@@ -130,6 +132,7 @@ impl<const C: usize> Followed<C> {
                     compression: drawn.compression,
                     tilt: 1.0,
                     pdf_solid_angle: Some(rough.pdf_solid_angle(w, drawn.v)),
+                    straight: false,
                 };
                 onward.on_the_right_side(ray, &normals)
             }

@@ -74,6 +74,7 @@ impl<const C: usize> Specular<C> {
             compression,
             tilt: 1.0,
             pdf_solid_angle: None,
+            straight: false,
         };
         match *self {
             Specular::Mirror { reflectance } => to(mirrored, reflectance, 1.0),
@@ -90,15 +91,29 @@ impl<const C: usize> Specular<C> {
                 to(direction, transmittance, 1.0 / (relative_index * relative_index))
             }
             Specular::Thin { relative_index, reflectance, transmittance } => {
-                // R + T R T + T R^3 T + ... with R at one face, the same at both.
-                let (face, _) = fresnel_dielectric(cosine, relative_index);
-                let reflected = 2.0 * face / (1.0 + face);
-                if stream.next() < reflected {
+                if stream.next() < reflected_by_plate(cosine, relative_index) {
                     to(mirrored, reflectance, 1.0)
                 } else {
-                    to(ray.direction, transmittance, 1.0)
+                    Onward { straight: true, ..to(ray.direction, transmittance, 1.0) }
                 }
             }
         }
     }
+
+    /// The share of light along a ray that goes on straight from a hit: zero but for thin plates.
+    pub(crate) fn straight(&self, ray: &Ray, hit: &Hit) -> Colour<C> {
+        let Specular::Thin { relative_index, transmittance, .. } = *self else { return Colour::ZERO };
+        let normals = hit.facing_normals();
+        let cosine = -ray.direction.dot(normals.shading);
+        if cosine < 0.0 || normals.tilt(-ray.direction) == 0.0 {
+            return Colour::ZERO;
+        }
+        transmittance * (1.0 - reflected_by_plate(cosine, relative_index))
+    }
+}
+
+/// R + T R T + T R^3 T + ... with R at one face, the same at both.
+fn reflected_by_plate(cosine: f64, relative_index: f64) -> f64 {
+    let (face, _) = fresnel_dielectric(cosine, relative_index);
+    2.0 * face / (1.0 + face)
 }

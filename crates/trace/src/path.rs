@@ -238,7 +238,15 @@ impl<const C: usize> Walk<'_, C> {
         out: &mut Traced<C>,
     ) -> Fate {
         match followed.draw(&self.ray, hit, stream) {
-            Some(onward) => self.go_on(hit, onward.ray, onward.share * onward.tilt, job, stream, out),
+            Some(onward) => {
+                let was = self.class;
+                let fate = self.go_on(hit, onward.ray, onward.share * onward.tilt, job, stream, out);
+                // Through a pane light comes as directly as before.
+                if onward.straight && self.optics.is_pane(self.world, hit.point.primitive) {
+                    self.class = was;
+                }
+                fate
+            }
             None => self.lose(hit, out),
         }
     }

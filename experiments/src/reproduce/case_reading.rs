@@ -214,7 +214,7 @@ fn attempt<const C: usize>(
         let promised: Vec<_> = (0..outcome.results).map(|channel| promised(result, channel)).collect();
         let biased = (0..outcome.results).any(|channel| {
             let value = result.value[channel].mean().unwrap_or(0.0);
-            result.bias_bound_within(channel, 0.0) > precision * value.abs()
+            result.lasting_bias_within(channel, 0.0) > precision * value.abs()
         });
         // Few counts have no normal mean, and few points may all see the same: a reading that rests on them is not judged,
         // whatever its spread says.
@@ -252,6 +252,6 @@ fn promised<const C: usize>(result: &CellResult<C>, channel: usize) -> Option<In
     let error = result.value[channel].std_error()?;
     let degrees = result.value[channel].degrees_of_freedom();
     let spread = error * student_t_quantile(LIKELY, degrees) / normal_quantile(0.5 + 0.5 * LIKELY);
-    let half = normal_quantile(0.5 + 0.5 * CONFIDENCE) * spread + result.bias_bound_within(channel, 0.0);
+    let half = normal_quantile(0.5 + 0.5 * CONFIDENCE) * spread + result.lasting_bias_within(channel, 0.0);
     (!result.found_nothing()).then(|| Interval::around(value, half, CONFIDENCE))
 }
