@@ -21,7 +21,7 @@ mod view_independence;
 
 use photonlab_measure::Record;
 
-use super::context::Context;
+use super::{atlas, context::Context};
 
 /// A claim of the paper that can be put to the test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,10 +44,11 @@ pub(super) enum Claim {
     RenderingEquation,
     Figure1,
     Catalogue,
+    Atlas,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue is run when it is asked for.
+    /// Every claim of the paper, in the order of the report. The catalogue and the atlas are run when they are asked for.
     pub(super) const ALL: [Claim; 17] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -89,6 +90,7 @@ impl Claim {
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
+            Claim::Atlas => "atlas",
         }
     }
 
@@ -113,6 +115,7 @@ impl Claim {
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
+            Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
         }
     }
 
@@ -137,6 +140,7 @@ impl Claim {
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
+            Claim::Atlas => atlas::run(context),
         }
     }
 }
