@@ -31,7 +31,7 @@ pub(super) fn shadow_step(part: &Part) -> anyhow::Result<Mode> {
         title: "Blur of a shadow's edge",
         x: Axis::linear("distance from the shadow's edge over the search radius, lit side positive"),
         y: Axis::linear("reading over the lit irradiance"),
-        truth: Some(Box::new(|x| if x > 0.0 { 1.0 } else { 0.0 })),
+        truth: Some(("truth", Box::new(|x| if x > 0.0 { 1.0 } else { 0.0 }))),
         between: true,
         curves: vec![
             Curve::off("fixed radius", "half-plane (catalogue B1)", half_plane),
@@ -62,8 +62,8 @@ pub(super) fn caustic_fold(part: &Part) -> anyhow::Result<Mode> {
         title: "Blur of a caustic's fold",
         x: Axis::linear("distance from the fold over the search radius, lit side positive"),
         y: Axis::linear("reading over the irradiance one radius inside the fold"),
-        // Drawn to where it leaves the readings far below.
-        truth: Some(Box::new(|x| if x <= 0.0 { 0.0 } else { x.max(0.2).powf(-0.5) })),
+        // Drawn up to where it leaves the readings far below; on the fold it is infinite.
+        truth: Some(("truth", Box::new(|x| if x < 0.12 { f64::INFINITY } else { x.powf(-0.5) }))),
         between: true,
         curves: vec![
             Curve::off("disc", "blurred fold, by quadrature", |x| fold(x, 0)),

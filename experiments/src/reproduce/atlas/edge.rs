@@ -5,7 +5,7 @@ use photonlab_measure::Axis;
 
 use super::{
     ground::Ground,
-    mode::{Curve, Mode, Part},
+    mode::{Curve, Law, Mode, Part},
     photons::{density, map, nearest, read, read_among},
 };
 use crate::reproduce::{
@@ -64,7 +64,7 @@ fn at(place: Place, title: &'static str, clipped: bool, part: &Part) -> anyhow::
         title,
         x: Axis::linear(format!("{} over the search radius", place.distance())),
         y: Axis::linear("reading over the lit faces' irradiance"),
-        truth: (place == Place::ThinWall).then(|| Box::new(|_| 0.0) as super::mode::Law),
+        truth: (place == Place::ThinWall).then(|| ("truth", Box::new(|_| 0.0) as Law)),
         between: true,
         curves,
         trial: Box::new(move |sweep, stream, scratch| {

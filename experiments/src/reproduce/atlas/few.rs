@@ -1,9 +1,9 @@
 //! Counts: k, fewer than k, photons in heaps, and intervals made of few.
 
-use photonlab_gather::{Bandwidth, Tests};
+use photonlab_gather::{AreaModel, Bandwidth, Tests};
 use photonlab_measure::{Axis, binomial_interval};
 use photonlab_reference::{
-    atlas::{Counts, Intervals, clusters_by_nearest},
+    atlas::{Counts, Intervals, clusters_by_nearest, starved_from},
     nearest_law::{self, Counted},
 };
 
@@ -39,10 +39,12 @@ pub(super) fn all_k(_: &Part) -> anyhow::Result<Mode> {
     })
 }
 
+/// Fewest photons whose furthest one's disc is divided by: readings over fewer have no fourth moment.
+const FEWEST: usize = 5;
+
 /// Fewer than k photons within the largest radius.
 pub(super) fn starved(part: &Part) -> anyhow::Result<Mode> {
     let k = part.photons;
-    const LAW: &str = "capped queries (catalogue A6)";
     Ok(Mode {
         id: "fewer-than-k",
         title: "Fewer than k photons within reach",
@@ -51,26 +53,28 @@ pub(super) fn starved(part: &Part) -> anyhow::Result<Mode> {
         truth: None,
         between: true,
         curves: vec![
-            Curve::off("over the furthest photon's disc", LAW, move |mu| {
-                nearest_law::starved_by_furthest(k as u32, mu)
+            Curve::off("over the furthest photon's disc", "capped queries (catalogue A6), from five on", move |mu| {
+                starved_from(k as u32, mu, FEWEST as u32)
             }),
-            Curve::on("over the whole disc", LAW, move |mu| nearest_law::capped(k as u32, mu, Counted::AllButLast)),
+            Curve::on("over the whole disc", "capped queries (catalogue A6)", move |mu| {
+                nearest_law::capped(k as u32, mu, Counted::AllButLast)
+            }),
         ],
         trial: each(move |mu, stream, scratch| {
             let (map, at) = (map(square(mu, 1.01, stream))?, facing_up([0.0; 3]));
             let capped = Bandwidth::Nearest { k: k as usize, max_radius: 1.0 };
-            let estimate = map.gather(&at, capped, photonlab_gather::AreaModel::Disc, &Tests::default(), scratch);
-            let found = estimate.photons;
+            let estimate = map.gather(&at, capped, AreaModel::Disc, &Tests::default(), scratch);
+            let (value, found) = (estimate.irradiance[0], estimate.photons);
             // A full search found k - 1 within the k-th; a starved one all that are there.
-            let furthest = match estimate.radius < 1.0 {
-                true => estimate.irradiance[0] * k / (k - 1.0),
-                false if found >= 2 => {
-                    let n = found as f64;
-                    read(&map, &at, nearest(n), &Tests::default(), scratch) * n / (n - 1.0)
-                }
-                false => 0.0,
+            let over_furthest = if estimate.radius < 1.0 {
+                value * k / (k - 1.0)
+            } else if found >= FEWEST {
+                let n = found as f64;
+                read(&map, &at, nearest(n), &Tests::default(), scratch) * n / (n - 1.0)
+            } else {
+                value
             };
-            Ok([furthest, estimate.irradiance[0]])
+            Ok([over_furthest, value])
         }),
     })
 }
@@ -113,7 +117,7 @@ pub(super) fn small_counts(part: &Part) -> anyhow::Result<Mode> {
         title: "Intervals made of few photons",
         x: Axis::log("photons expected in the disc"),
         y: Axis::linear("share of 95 % intervals that hold the truth"),
-        truth: Some(Box::new(|_| 0.95)),
+        truth: Some(("what they say", Box::new(|_| 0.95))),
         between: true,
         curves: vec![
             Curve::off("n +- 1.96 root n", LAW, move |mu| coverage(mu, Intervals::RootOfCount(NORMAL_95))),
@@ -130,7 +134,7 @@ pub(super) fn small_counts(part: &Part) -> anyhow::Result<Mode> {
             }
             let (map, at) = (map(field)?, facing_up([0.0; 3]));
             let ball = Bandwidth::Radius(radius);
-            let estimate = map.gather(&at, ball, photonlab_gather::AreaModel::Disc, &Tests::default(), scratch);
+            let estimate = map.gather(&at, ball, AreaModel::Disc, &Tests::default(), scratch);
             let found = estimate.photons as f64;
             let root = (found - mu).abs() <= NORMAL_95 * found.sqrt();
             let exact = binomial_interval(estimate.photons as u64, all, 0.95).contains(share);

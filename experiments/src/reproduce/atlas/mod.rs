@@ -20,6 +20,7 @@ mod photons;
 mod picture;
 mod radius;
 mod sheet;
+mod threads;
 mod unseen;
 mod walk;
 
@@ -70,7 +71,7 @@ const MODES: [(&str, Maker); 39] = [
     ("mid-air", sheet::mid_air),
     ("colour-ratio", colour::ratio),
     ("seed-reuse", passes::seed_reuse),
-    ("thread-order", walk::thread_order),
+    ("thread-order", threads::order),
     ("coincident-photons", few::coincident),
     ("wrong-radius", radius::wrong),
     ("small-counts", few::small_counts),

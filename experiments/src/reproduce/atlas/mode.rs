@@ -50,8 +50,8 @@ pub(super) struct Mode {
     pub(super) x: Axis,
     /// What is read.
     pub(super) y: Axis,
-    /// What should be read, where the reading is not already a share of it.
-    pub(super) truth: Option<Law>,
+    /// What should be read, with its name, where that is not 1 everywhere.
+    pub(super) truth: Option<(&'static str, Law)>,
     /// True if the laws hold between the swept values too.
     pub(super) between: bool,
     pub(super) curves: Vec<Curve>,

@@ -18,9 +18,9 @@ impl Measured {
             series.push(Series { label: curve.label.clone(), kind: SeriesKind::Measured, points: marks.collect() });
             series.push(Series { label: "its law".into(), kind: SeriesKind::Predicted, points: self.line(&curve.law) });
         }
-        if let Some(truth) = &mode.truth {
+        if let Some((name, truth)) = &mode.truth {
             let points = self.line(truth);
-            series.push(Series { label: "truth".into(), kind: SeriesKind::Reference, points });
+            series.push(Series { label: (*name).into(), kind: SeriesKind::Reference, points });
         }
         FigureData {
             id: mode.id.into(),

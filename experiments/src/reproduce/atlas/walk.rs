@@ -109,6 +109,7 @@ pub(super) fn self_intersection(part: &Part) -> anyhow::Result<Mode> {
     const START: f64 = 1e-3;
     const ROOM: f64 = 0.9;
     let photons = part.photons as u64;
+    let rooms = part.sweep.iter().map(|&radius| Enclosure::new(radius, ROOM)).collect::<Result<Vec<_>, _>>()?;
     Ok(Mode {
         id: "self-intersection",
         title: "Rays that start a millimetre off the surface",
@@ -122,18 +123,21 @@ pub(super) fn self_intersection(part: &Part) -> anyhow::Result<Mode> {
             }),
             Curve::on("start relative to scale", "integrating sphere (catalogue D1)", |_| 1.0),
         ],
-        trial: each(move |radius, stream, _| {
-            let room = Enclosure::new(radius, ROOM)?;
-            let traced = room.trace(photons, stream)?;
-            let relative = traced.photons.iter().map(|photon| f64::from(photon.flux[0])).sum::<f64>();
-            let mut hits = 0.0;
-            for _ in 0..photons {
-                hits += 1.0;
-                while stream.next() < ROOM && 2.0 * radius * cosine(stream) >= START {
+        trial: Box::new(move |sweep, stream, _| {
+            let mut values = Vec::new();
+            for (&radius, room) in sweep.iter().zip(&rooms) {
+                let mut hits = 0.0;
+                for _ in 0..photons {
                     hits += 1.0;
+                    while stream.next() < ROOM && 2.0 * radius * cosine(stream) >= START {
+                        hits += 1.0;
+                    }
                 }
+                let traced = room.trace(photons, stream)?;
+                let flux = traced.photons.iter().map(|photon| f64::from(photon.flux[0])).sum::<f64>();
+                values.extend([hits * (1.0 - ROOM) / photons as f64, flux / room.flux_on_wall()]);
             }
-            Ok([hits * (1.0 - ROOM) / photons as f64, relative / room.flux_on_wall()])
+            Ok(values)
         }),
     })
 }
@@ -141,35 +145,4 @@ pub(super) fn self_intersection(part: &Part) -> anyhow::Result<Mode> {
 /// Of a diffuse ray to the wall's normal.
 fn cosine(stream: &mut Stream) -> f64 {
     warp::square_to_cosine_hemisphere(stream.next2(), DVec3::Z).z
-}
-
-/// The same photons followed by more threads.
-pub(super) fn thread_order(part: &Part) -> anyhow::Result<Mode> {
-    let photons = part.photons as u64;
-    let room = Enclosure::new(1.0, 0.8)?;
-    Ok(Mode {
-        id: "thread-order",
-        title: "Photons followed by more threads",
-        x: Axis::linear("threads"),
-        y: Axis::linear("share of photon records that differ from those of one thread"),
-        truth: None,
-        between: false,
-        curves: vec![Curve::on("numbers from seed and photon alone", "the same bits", |_| 0.0)],
-        trial: Box::new(move |sweep, stream, _| {
-            let own = stream.clone();
-            let by = |threads: usize| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-                pool.install(|| room.trace(photons, &mut own.clone()))
-            };
-            let one = by(1)?;
-            let differ = |&threads: &f64| {
-                let many = by(threads as usize)?;
-                let pairs = one.positions.iter().zip(&one.photons).zip(many.positions.iter().zip(&many.photons));
-                let missing = one.photons.len().abs_diff(many.photons.len());
-                let unlike = pairs.filter(|(a, b)| a != b).count() + missing;
-                Ok(unlike as f64 / one.photons.len() as f64)
-            };
-            sweep.iter().map(differ).collect()
-        }),
-    })
 }
