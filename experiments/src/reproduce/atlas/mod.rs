@@ -115,3 +115,26 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let (verdict, reason) = judgement::conclude(&outcomes);
     Ok(context.record(found, verdict, reason))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::{claims::Claim, definition::Definition};
+
+    /// Every mode has its words and every word its mode, and each law is a number wherever it is held against a measured one.
+    #[test]
+    fn modes_and_their_definitions_agree() {
+        let definition = Definition::parse("atlas", Claim::Atlas.definition()).expect("a definition");
+        let parts = definition.parts::<Part>().expect("parts");
+        assert_eq!(parts.len(), MODES.len());
+        for (id, make) in MODES {
+            let part = &parts[id];
+            let mode = make(part).expect("a mode");
+            assert_eq!(mode.id, id);
+            assert!(part.sweep.is_sorted() && !mode.curves.is_empty(), "{id}");
+            for (curve, &x) in mode.curves.iter().flat_map(|curve| part.sweep.iter().map(move |x| (curve, x))) {
+                assert!((curve.law)(x).is_finite(), "{id}, {}, {x}", curve.label);
+            }
+        }
+    }
+}

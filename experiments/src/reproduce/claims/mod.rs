@@ -7,6 +7,7 @@ mod even_noise;
 mod figure_1;
 mod final_gather_edges;
 mod final_gather_rays;
+mod fine_detail;
 mod fixed_noisier;
 mod interior;
 mod kd_memory;
@@ -41,6 +42,7 @@ pub(super) enum Claim {
     ViewIndependence,
     Interior,
     Caustics,
+    FineDetail,
     RenderingEquation,
     Figure1,
     Catalogue,
@@ -49,7 +51,7 @@ pub(super) enum Claim {
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue and the atlas are run when they are asked for.
-    pub(super) const ALL: [Claim; 17] = [
+    pub(super) const ALL: [Claim; 18] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -65,6 +67,7 @@ impl Claim {
         Claim::ViewIndependence,
         Claim::Interior,
         Claim::Caustics,
+        Claim::FineDetail,
         Claim::RenderingEquation,
         Claim::Figure1,
     ];
@@ -87,6 +90,7 @@ impl Claim {
             Claim::ViewIndependence => "view-independence",
             Claim::Interior => "interior",
             Claim::Caustics => "caustics",
+            Claim::FineDetail => "fine-detail",
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
@@ -112,6 +116,7 @@ impl Claim {
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::Interior => include_str!("../../../definitions/interior.toml"),
             Claim::Caustics => include_str!("../../../definitions/caustics.toml"),
+            Claim::FineDetail => include_str!("../../../definitions/fine-detail.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
@@ -137,6 +142,7 @@ impl Claim {
             Claim::ViewIndependence => view_independence::run(context),
             Claim::Interior => interior::run(context),
             Claim::Caustics => caustics::run(context),
+            Claim::FineDetail => fine_detail::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
