@@ -128,7 +128,8 @@ impl Squares {
             id: "checker".into(),
             title: "A checker of shadow and light".into(),
             caption: format!(
-                "Parallel light through a checker of plates. The map's disc and the k nearest blur squares smaller than themselves away; a shadow ray                  does not. {replicates} seeds; {}.",
+                "Parallel light through a checker of plates. The map's disc and the k nearest blur squares smaller than themselves away; a shadow ray \
+                 does not. {replicates} seeds; {}.",
                 table.intervals()
             ),
             x: Axis::log("side of a square over the search radius"),

@@ -1,12 +1,13 @@
 //! Ends of surfaces and concave corners, at which the disc is not full.
 
-use photonlab_gather::{Bandwidth, SAME_SURFACE};
+use photonlab_gather::{AreaModel, Bandwidth, Estimator, Kernel, SAME_SURFACE};
 use photonlab_measure::Axis;
+use photonlab_reference::edge_laws::HalfPlaneMoments;
 
 use super::{
     ground::Ground,
     mode::{Curve, Law, Mode, Part},
-    photons::{density, map, nearest, read, read_among},
+    photons::{NO_TEST, density, map, nearest, read, read_among},
 };
 use crate::reproduce::{
     edges::{Filter, Place, Search},
@@ -79,6 +80,51 @@ fn at(place: Place, title: &'static str, clipped: bool, part: &Part) -> anyhow::
                     let around = ground.around(&at);
                     values.push(read_among(&map, &at, bandwidth(search), &test.tests(), &around, scratch));
                 }
+            }
+            Ok(values)
+        }),
+    })
+}
+
+/// Light that rises away from the edge, per search radius, from 1 on it.
+const SLOPE: f64 = 1.0;
+
+/// A free edge in light that is not even: the surface inside lies to one side.
+pub(super) fn slope(part: &Part) -> anyhow::Result<Mode> {
+    let photons = part.photons;
+    let faces = Place::FreeEdge.faces(REACH);
+    let ground = Ground::of_faces(&faces, f64::from(SAME_SURFACE))?;
+    const MOMENTS: &str = "moments of what an edge leaves of the disc (catalogue B1)";
+    let irradiance = |t: f64| 1.0 + SLOPE * t;
+    let clipped = move |t: f64| HalfPlaneMoments::new(t).clipped(SLOPE / irradiance(t), 0.0);
+    let areas = [AreaModel::Disc, AreaModel::Clipped, AreaModel::Linear];
+    Ok(Mode {
+        id: "edge-slope",
+        title: "Free edge in light that rises away from it",
+        x: Axis::linear("distance from the edge over the search radius"),
+        y: Axis::linear("reading over the irradiance"),
+        truth: None,
+        between: true,
+        curves: vec![
+            Curve::off("disc", MOMENTS, move |t| HalfPlaneMoments::new(t).area * clipped(t)),
+            Curve::on("surface inside", MOMENTS, clipped),
+            Curve::on("surface inside, slope fitted", MOMENTS, |t| HalfPlaneMoments::new(t).linear(0.0)),
+        ],
+        trial: Box::new(move |sweep, stream, scratch| {
+            let mut field = lit(&faces, density(photons), stream);
+            for (position, photon) in field.positions.iter().zip(&mut field.photons) {
+                photon.flux[0] *= irradiance(f64::from(position[0])) as f32;
+            }
+            let map = map(field)?;
+            let mut values = Vec::new();
+            for &t in sweep {
+                let at = Place::FreeEdge.query(t);
+                let around = ground.around(&at);
+                values.extend(areas.map(|area| {
+                    let (ball, estimator) = (Bandwidth::Radius(1.0), Estimator { kernel: Kernel::Disc, area });
+                    let read = map.gather_among(&at, ball, estimator, &NO_TEST, &around, scratch);
+                    read.irradiance[0] / irradiance(t)
+                }));
             }
             Ok(values)
         }),

@@ -37,9 +37,10 @@ const FAMILY: f64 = 0.99;
 type Maker = fn(&Part) -> anyhow::Result<Mode>;
 
 /// Every mode by its name, in the order of the report.
-const MODES: [(&str, Maker); 39] = [
+const MODES: [(&str, Maker); 40] = [
     ("free-edge", edge::free_edge),
     ("free-corner", edge::free_corner),
+    ("edge-slope", edge::slope),
     ("crease-60", crease::crease_60),
     ("crease-90", crease::crease_90),
     ("crease-120", crease::crease_120),

@@ -5,7 +5,7 @@ use photonlab_measure::{FigureData, Point, Series, SeriesKind};
 use super::mode::{Law, Measured};
 
 /// Pieces of a law's line.
-const PIECES: u32 = 80;
+const PIECES: u32 = 60;
 
 impl Measured {
     /// Every curve's readings with their law, and the truth.
