@@ -1,6 +1,6 @@
 //! What every claim gets to run with, and the record it starts from.
 
-use std::{path::Path, path::PathBuf, process::Command, time::Instant};
+use std::{collections::BTreeMap, path::Path, path::PathBuf, process::Command, time::Instant};
 
 use photonlab_measure::{Budget, Comparison, FigureData, Group, ImageEntry, Record, Row, Run, Verdict};
 use photonlab_paper_figures::interval_text;
@@ -41,6 +41,11 @@ impl Context {
     /// The claim's own parameters at this budget.
     pub(super) fn parameters<P: DeserializeOwned>(&self) -> anyhow::Result<P> {
         self.definition.parameters(self.budget)
+    }
+
+    /// What the definition says of the claim's parts, by their names.
+    pub(super) fn parts<P: DeserializeOwned>(&self) -> anyhow::Result<BTreeMap<String, P>> {
+        self.definition.parts()
     }
 
     /// A folder of this run for files that are not part of the record.

@@ -1,5 +1,7 @@
 //! What a claim's definition file says.
 
+use std::collections::BTreeMap;
+
 use anyhow::Context as _;
 use photonlab_measure::Budget;
 use serde::{Deserialize, de::DeserializeOwned};
@@ -25,6 +27,9 @@ pub(super) struct Definition {
     quick: toml::Table,
     paper: toml::Table,
     archive: toml::Table,
+    /// What has a statement of its own within the claim, by its name.
+    #[serde(default)]
+    parts: toml::Table,
 }
 
 impl Definition {
@@ -41,5 +46,14 @@ impl Definition {
             Budget::Archive => &self.archive,
         };
         table.clone().try_into().with_context(|| format!("parameters of the {} budget", budget.name()))
+    }
+
+    /// What has a statement of its own within the claim, by its name.
+    pub(super) fn parts<P: DeserializeOwned>(&self) -> anyhow::Result<BTreeMap<String, P>> {
+        let parse = |(name, value): (&String, &toml::Value)| {
+            let part = value.clone().try_into().with_context(|| format!("part {name}"))?;
+            Ok((name.clone(), part))
+        };
+        self.parts.iter().map(parse).collect()
     }
 }

@@ -162,16 +162,23 @@ pub(super) fn time_ratio(curves: &[Curve]) -> Option<Interval> {
     Some(Interval { value: ratio(rms.value)?, low: ratio(rms.low)?, high: ratio(rms.high)?, confidence: CONFIDENCE })
 }
 
+/// RMS error of a setting over that of path tracing after as many CPU seconds; the interval is that of the setting's error, not of
+/// the line through path tracing's points.
+pub(super) fn error_ratio(paths: &Curve, setting: &Measured) -> Option<Interval> {
+    let law = law(paths, Measured::seconds).ok()?;
+    Some(setting.rms()?.scaled(1.0 / law.predict(setting.seconds(), 0.5).value))
+}
+
 /// The curves over what `place` says.
-pub(super) fn chart(
+pub(super) fn chart<'c>(
     id: &str,
     title: &str,
     x: &str,
     seeds: u64,
-    curves: &[Curve],
+    curves: impl IntoIterator<Item = &'c Curve>,
     place: impl Fn(&Measured) -> f64,
 ) -> FigureData {
-    let series = curves.iter().map(|curve| {
+    let series = curves.into_iter().map(|curve| {
         let points = curve.points.iter().filter_map(|m| Some(Point::measured(place(m), m.rms()?.scaled(100.0))));
         Series { label: curve.title.clone(), kind: SeriesKind::Measured, points: points.collect() }
     });

@@ -55,6 +55,17 @@ impl Strategy {
     pub(super) const ALL: [Strategy; 5] =
         [Self::NEAREST_DIRECT_VIEW, Self::RADIUS_DIRECT_VIEW, Self::NEAREST, Self::FINAL_GATHER, Self::PATH];
 
+    /// The same with a radius in metres, where it gathers within one.
+    pub(super) fn within(self, radius: f64) -> Strategy {
+        let radius = Some(radius);
+        let method = match self.method {
+            Method::Radius { .. } => Method::Radius { radius },
+            Method::FinalGather { .. } => Method::FinalGather { radius },
+            other => other,
+        };
+        Strategy { method, ..self }
+    }
+
     /// Its settings at a seed.
     pub(super) fn settings(&self, seed: u64) -> Settings {
         Settings {

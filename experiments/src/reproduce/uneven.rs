@@ -92,7 +92,7 @@ impl Uneven {
     }
 
     /// Half the side of a square that holds all that the search can find (the k nearest but once in 10^12 fields).
-    fn half(&self, bandwidth: Bandwidth) -> f64 {
+    pub(super) fn half(&self, bandwidth: Bandwidth) -> f64 {
         match bandwidth {
             Bandwidth::Radius(radius) => 1.01 * radius,
             Bandwidth::Nearest { k, .. } => {
@@ -106,7 +106,8 @@ impl Uneven {
         }
     }
 
-    fn field(&self, half: f64, stream: &mut Stream) -> Field {
+    /// Photons on a square of this half side around the query.
+    pub(super) fn field(&self, half: f64, stream: &mut Stream) -> Field {
         match self.shape {
             Shape::Flat => Field::uniform(self.density, [-half; 2], [half; 2], stream),
             Shape::Ramp { slope } => self.ramp(slope, half, stream),

@@ -2,23 +2,20 @@
 
 use photonlab_measure::{Comparison, Expected, Interval, Record, Verdict};
 use photonlab_readout::Cell;
-use photonlab_reference::ball_lens::DiscLamp;
 use serde::Deserialize;
 
 use crate::reproduce::{
-    caustic_flux::{Kept, ball_rings, cup_boxes, lens},
+    caustic_flux::{Kept, ball_rings, cup_boxes},
     caustic_profile::{BesideFold, Profile},
     context::{Context, Findings},
-    lab::Lab,
-    ray_curves::{Bench, Curve, Measured, chart, time_ratio},
+    lamp_caustic::under,
+    ray_curves::{Curve, Measured, chart, time_ratio},
     strategy::Strategy,
     table::Table,
 };
 
 /// The lamps over the ball: name in rows and radius (m).
 const LAMPS: [(&str, f64); 2] = [("large-lamp", 0.1), ("small-lamp", 0.02)];
-/// Height of the lamps (m).
-const HEIGHT: f64 = 3.0;
 /// Half-width of the floor under them (m) and cells along it.
 const FLOOR: (f64, u32) = (0.1, 50);
 /// Cells that are read under a lamp, by column, all in the row beside the axis: from the middle out.
@@ -97,27 +94,9 @@ fn under_lamp(
     seeds: &std::ops::Range<u64>,
     found: &mut Findings,
 ) -> anyhow::Result<Vec<Curve>> {
-    let (lens, (half, cells)) = (lens(), FLOOR);
-    // As bright as parallel light of irradiance 1, but for the distance.
-    let lamp = DiscLamp { height: HEIGHT, radius, radiance: (HEIGHT / radius).powi(2) / std::f64::consts::PI };
-    let lab = Lab::new(id, &lens.metered_xml(Some(lamp), half, cells as usize), &[])?;
-    let edge = 2.0 * half / f64::from(cells);
-    let wanted = |cell: &Cell| cell.cell[1] == cells / 2 && COLUMNS.step_by(STEP).any(|column| column == cell.cell[0]);
-    let read: Vec<Cell> = Cell::of_meters(&lab.world.scene).into_iter().filter(wanted).collect();
-    let truth = read.iter().map(|cell| {
-        // The mean over the cell by two Gauss nodes each way.
-        let node = |k: u32, i: usize| {
-            let side = if k >> i & 1 == 0 { -1.0 } else { 1.0 } / 12f64.sqrt();
-            -half + edge * (f64::from(cell.cell[i]) + 0.5 + side)
-        };
-        let at = |k: u32| lens.irradiance_under(lamp, node(k, 0).hypot(node(k, 1)));
-        let mean = (0..4).map(at).sum::<Result<f64, _>>()? / 4.0;
-        Ok(mean)
-    });
-    let truth = truth.collect::<anyhow::Result<Vec<f64>>>()?;
-    let scale = truth.iter().sum::<f64>() / truth.len() as f64;
-    let truth = truth.into_iter().map(|mean| Some(([mean], scale))).collect();
-    let bench = Bench { id, lab, cells: read, truth };
+    let row = |cell: &Cell| cell.cell[1] == FLOOR.1 / 2;
+    let column = |cell: &Cell| COLUMNS.step_by(STEP).any(|column| column == cell.cell[0]);
+    let bench = under(id, radius, FLOOR, |cell| row(cell) && column(cell))?;
     let paths: Vec<_> = p.lamp_points.iter().map(|&points| (None, points)).collect();
     let maps: Vec<_> = p.lamp_photons.iter().map(|&photons| (Some(photons), READS)).collect();
     let path = bench.curve(Strategy::PATH, &paths, seeds, found)?;

@@ -8,6 +8,7 @@ mod even_noise;
 mod figure_1;
 mod final_gather_edges;
 mod final_gather_rays;
+mod fine_detail;
 mod fixed_noisier;
 mod interior;
 mod kd_memory;
@@ -22,7 +23,7 @@ mod view_independence;
 
 use photonlab_measure::Record;
 
-use super::context::Context;
+use super::{atlas, context::Context};
 
 /// A claim of the paper that can be put to the test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,15 +43,18 @@ pub(super) enum Claim {
     ViewIndependence,
     Interior,
     Caustics,
+    FineDetail,
     RenderingEquation,
     Figure1,
     Catalogue,
+    Atlas,
     Coverage,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue and the coverage are run when they are asked for.
-    pub(super) const ALL: [Claim; 17] = [
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
+    /// for.
+    pub(super) const ALL: [Claim; 18] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -66,6 +70,7 @@ impl Claim {
         Claim::ViewIndependence,
         Claim::Interior,
         Claim::Caustics,
+        Claim::FineDetail,
         Claim::RenderingEquation,
         Claim::Figure1,
     ];
@@ -88,10 +93,12 @@ impl Claim {
             Claim::ViewIndependence => "view-independence",
             Claim::Interior => "interior",
             Claim::Caustics => "caustics",
+            Claim::FineDetail => "fine-detail",
             Claim::RenderingEquation => "rendering-equation",
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
             Claim::Coverage => "coverage",
+            Claim::Atlas => "atlas",
         }
     }
 
@@ -113,10 +120,12 @@ impl Claim {
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::Interior => include_str!("../../../definitions/interior.toml"),
             Claim::Caustics => include_str!("../../../definitions/caustics.toml"),
+            Claim::FineDetail => include_str!("../../../definitions/fine-detail.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
             Claim::Coverage => include_str!("../../../definitions/coverage.toml"),
+            Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
         }
     }
 
@@ -138,10 +147,12 @@ impl Claim {
             Claim::ViewIndependence => view_independence::run(context),
             Claim::Interior => interior::run(context),
             Claim::Caustics => caustics::run(context),
+            Claim::FineDetail => fine_detail::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
             Claim::Coverage => coverage::run(context),
+            Claim::Atlas => atlas::run(context),
         }
     }
 }
