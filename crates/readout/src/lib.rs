@@ -18,6 +18,7 @@ mod map_file;
 mod maps;
 mod method;
 mod outcome;
+mod pass;
 mod probe;
 mod run;
 mod schedule;

@@ -2,28 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use photonlab_final_gather::Light;
-use photonlab_gather::Scratch;
 use photonlab_measure::Stopped;
-use photonlab_photometry::{Channels, Colour};
-use photonlab_sampling::{EmissionPlan, NothingCounts, Optics, PassOptics, PlanError, Purpose, Stream};
+use photonlab_photometry::Channels;
+use photonlab_sampling::{NothingCounts, PassOptics, PlanError};
 use photonlab_scene::{Needs, World};
-use photonlab_trace::{Classes, Job, TraceError, count};
-use rayon::prelude::*;
+use photonlab_trace::{Classes, TraceError};
 
 use crate::{
-    Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings,
-    bins::Bins,
-    compiled::runner,
-    look::{Look, Sample},
-    maps::PassMaps,
-    probe::{probe, shares},
-    run::Run,
-    trace_pass,
+    Cell, Demands, ErrorOver, MapFile, Method, Outcome, Schedule, Settings, compiled::runner, run::Run, trace_pass,
 };
 
-/// Samples that one task takes of one cell.
-const BLOCK: u64 = 256;
 /// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
 const PASSES_BEFORE_STOPPING: u64 = 16;
 /// Passes before a target is given up as out of reach.
@@ -48,7 +36,7 @@ pub enum Source<'f, const C: usize> {
 
 impl<const C: usize> Source<'_, C> {
     /// The seed by which the photons' wavelengths were drawn, or are to be.
-    fn seed(&self, of_run: u64) -> u64 {
+    pub(crate) fn seed(&self, of_run: u64) -> u64 {
         match self {
             Source::Trace => of_run,
             Source::Map(file) => file.header.seed,
@@ -113,7 +101,7 @@ impl<const C: usize> Session<'_, C> {
     }
 
     /// True if the method reads any map in this scene.
-    fn uses_maps(&self) -> bool {
+    pub(crate) fn uses_maps(&self) -> bool {
         match self.settings.method {
             Method::Path | Method::Bins => false,
             Method::FinalGather { .. } => self.needs.indirect || self.needs.caustic || self.needs.in_scattering,
@@ -124,7 +112,7 @@ impl<const C: usize> Session<'_, C> {
     }
 
     /// True if a ray from a diffuse point can bring light that neither lamp sampling nor the caustic map gives.
-    fn looks_around(&self) -> bool {
+    pub(crate) fn looks_around(&self) -> bool {
         let by_paths = self.settings.method == Method::Path && self.needs.caustic;
         self.needs.indirect || by_paths || !self.optics.any().lamps.are_sampled_alone(self.world)
     }
@@ -252,156 +240,6 @@ impl<const C: usize> Session<'_, C> {
             // The passes of a saved map are what they are.
             Source::Map(_) => schedule.divided(by as u64),
         })
-    }
-
-    /// One pass: photons, maps, every cell.
-    fn pass(
-        &self,
-        run: &mut Run<C>,
-        cells: &[Cell],
-        schedule: &Schedule,
-        source: &Source<'_, C>,
-    ) -> Result<(), ReadError> {
-        let number = run.passes + run.pilots;
-        if self.settings.method == Method::Bins {
-            return self.count(run, cells, schedule);
-        }
-        let optics = &*self.optics.of_pass(self.world, source.seed(self.settings.seed), number as u32);
-        let maps = self.maps(run, cells, optics, number, schedule, source)?;
-        let samples = schedule.samples(number);
-        let shares = shares(self.world, &optics.lamps, cells);
-        let look = Look {
-            world: self.world,
-            optics,
-            settings: &self.settings,
-            maps: &maps,
-            looks_around: self.looks_around(),
-            pass: number as u32,
-            samples,
-            shares: &shares,
-            caustics: &maps.in_cells,
-        };
-        let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(maps.surface_radius)).collect();
-        let blocks = samples.div_ceil(BLOCK);
-        let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
-            .into_par_iter()
-            .map_init(Scratch::default, |scratch, task| {
-                let (number, block) = ((task / blocks) as usize, task % blocks);
-                let shift = look.shift(number);
-                let mut sum = Sample { light: Light::default(), dark: true };
-                for sample in block * BLOCK..((block + 1) * BLOCK).min(samples) {
-                    let one = look.sample(&cells[number], number, sample, &shift, radii[number], scratch);
-                    sum.light.add(&one.light);
-                    sum.dark &= one.dark;
-                }
-                sum
-            })
-            .collect();
-        let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
-        let probed = self.probes(cells, optics, number as u32, samples);
-        for ((index, parts), probed) in found.chunks(blocks as usize).enumerate().zip(probed) {
-            let mut light = Light::default();
-            parts.iter().for_each(|part| light.add(&part.light));
-            let mut mean = light.over(samples as f64);
-            if self.settings.method == Method::Adaptive {
-                run.of_cells[index].learn(&mean, radii[index], number + 1, self.largest_radius());
-            }
-            mean.irradiance += probed;
-            if let Some((irradiance, photons)) = maps.in_cells.of(index) {
-                mean.irradiance += irradiance;
-                mean.reads += 1.0;
-                light.photons += photons as f64;
-            }
-            let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
-            let mean = mean.developed(&optics.palette);
-            let cell = &mut run.cells[index];
-            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
-            cell.glints += light.glints;
-            cell.rays += (samples * u64::from(self.settings.gather_rays)) as f64;
-            cell.brightest_glint =
-                brightest_glint.and_then(|radiance| Some(radiance * cells[index].all_around(self.world)?));
-        }
-        run.passes += 1;
-        run.samples += samples;
-        Ok(())
-    }
-
-    /// One pass of photons counted where they arrive.
-    fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
-        let optics = &*self.optics.of_pass(self.world, self.settings.seed, run.passes as u32);
-        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes))?;
-        let settings = &self.settings;
-        let job =
-            Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
-        let bins = Bins::new(self.world, cells);
-        let counted = count(self.world, optics, &plan, &job, cells.len(), &bins)?;
-        for (index, cell) in run.cells.iter_mut().enumerate() {
-            let irradiance = counted.flux[index] * (1.0 / bins.measure[index]);
-            let light = Light { irradiance, reads: 1.0, ..Light::default() };
-            cell.push(&light.developed(&optics.palette), counted.photons[index] as f64, false);
-        }
-        run.book(plan.photons(), &counted.ledger.map(|flux| optics.palette.develop(flux)));
-        run.passes += 1;
-        Ok(())
-    }
-
-    /// The largest radiance that a ray can find that meets a lamp behind specular surfaces by chance; `None` if none can be met so,
-    /// or the method sends no such rays.
-    pub(crate) fn brightest_glint(&self) -> Option<Colour<C>> {
-        let sends = matches!(self.settings.method, Method::Path | Method::FinalGather { .. });
-        if !sends || !self.needs.caustic {
-            return None;
-        }
-        let optics = self.optics.any();
-        Some(optics.palette.develop(optics.lamps.brightest()?))
-    }
-
-    /// No radius grows beyond this, metres: a quarter of the scene.
-    fn largest_radius(&self) -> f64 {
-        let (low, high) = self.world.bounds();
-        0.25 * (high - low).max_element()
-    }
-
-    /// What rays from point lamps add to each cell, where direct light is sampled.
-    fn probes(&self, cells: &[Cell], optics: &Optics<C>, pass: u32, points: u64) -> Vec<Colour<C>> {
-        if self.settings.method.is_direct_view() && self.settings.direct == Direct::Photons {
-            return vec![Colour::ZERO; cells.len()];
-        }
-        let of_sensors = cells.chunk_by(|a, b| a.sensor == b.sensor);
-        of_sensors
-            .flat_map(|of_sensor| {
-                let number = of_sensor[0].sensor as u64;
-                probe(self.world, optics, of_sensor, points, self.settings.limits.max_segments, |ray| {
-                    Stream::new(self.settings.seed, Purpose::Probes, pass, number << 44 | ray)
-                })
-            })
-            .collect()
-    }
-
-    fn maps(
-        &self,
-        run: &mut Run<C>,
-        cells: &[Cell],
-        optics: &Optics<C>,
-        number: u64,
-        schedule: &Schedule,
-        source: &Source<'_, C>,
-    ) -> Result<PassMaps<C>, ReadError> {
-        if !self.uses_maps() {
-            return Ok(PassMaps::none());
-        }
-        let photons = match source {
-            Source::Map(file) => file.passes[number as usize].clone(),
-            Source::Trace => {
-                let count = schedule.photons(number);
-                trace_pass(self.world, optics, &self.settings, self.settings.classes(), number as u32, count)?
-            }
-        };
-        run.book(photons.emitted, &photons.ledger.map(|flux| optics.palette.develop(flux)));
-        let maps =
-            PassMaps::build(photons, (self.world, self.needs), cells, &self.settings, number as u32, &mut run.radii)?;
-        run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
-        Ok(maps)
     }
 }
 
