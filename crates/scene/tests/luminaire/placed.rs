@@ -110,7 +110,7 @@ fn a_scene_stands_for_its_files() {
 fn broken_files_are_named_with_their_line() {
     for (name, message) in [
         ("none.ies", "emitter: \"none.ies\" is not there; name a file, relative to the scene's"),
-        ("folder.ies", "emitter: \"folder.ies\" is not there"),
+        ("folder.ies", "emitter: \"folder.ies\" is a folder"),
         ("lamp.txt", "emitter: \"lamp.txt\" is neither .ies nor .ldt; give an LM-63 or a EULUMDAT file"),
         ("noise.ies", "emitter: \"noise.ies\" is not a luminaire file: it holds no text; give an LM-63"),
         ("bad.ies", "emitter: \"bad.ies\" line 9: the intensity at 0, 45 degrees is -80; no intensity is negative"),
