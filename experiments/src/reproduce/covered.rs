@@ -21,6 +21,9 @@ pub(super) struct Made {
     pub(super) certified: bool,
 }
 
+/// The readings of one run; `None` where nothing was found.
+pub(super) type Run = Vec<Option<Made>>;
+
 /// The answer to a reading.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Truth {
@@ -42,8 +45,8 @@ pub(super) struct Covered {
 }
 
 impl Covered {
-    /// Adds a scene's runs: by seed, then by reading; `None` where nothing was found.
-    pub(super) fn add(&mut self, runs: &[Vec<Option<Made>>], truths: &[Truth]) {
+    /// Adds a scene's runs: by seed.
+    pub(super) fn add(&mut self, runs: &[Run], truths: &[Truth]) {
         for (number, run) in runs.iter().enumerate() {
             self.readings += run.len();
             self.certified += run.iter().flatten().filter(|made| made.certified).count();
@@ -91,7 +94,7 @@ fn push_share(shares: &mut Replicates, held: impl Iterator<Item = bool>) {
 
 /// Does a reading's interval of the noise alone hold the estimator's mean? That is known from the other seeds, whose own scatter
 /// widens the distance.
-fn noise_holds(runs: &[Vec<Option<Made>>], number: usize, reading: usize, level: usize) -> Option<bool> {
+fn noise_holds(runs: &[Run], number: usize, reading: usize, level: usize) -> Option<bool> {
     let made = runs[number][reading].as_ref()?;
     let others = runs.iter().enumerate().filter(|(other, _)| *other != number);
     let others: Replicates = others.filter_map(|(_, run)| Some(run[reading].as_ref()?.value)).collect();
@@ -102,7 +105,7 @@ fn noise_holds(runs: &[Vec<Option<Made>>], number: usize, reading: usize, level:
     Some(apart <= student_t_quantile(LEVELS[level], made.degrees) * made.error)
 }
 
-fn width_over_error(runs: &[Vec<Option<Made>>], reading: usize, truth: Truth) -> Option<f64> {
+fn width_over_error(runs: &[Run], reading: usize, truth: Truth) -> Option<f64> {
     let made: Vec<&Made> = runs.iter().filter_map(|run| run[reading].as_ref().filter(|made| made.certified)).collect();
     if made.len() < runs.len() {
         return None;
@@ -117,7 +120,7 @@ mod tests {
     use super::*;
 
     /// Normal scatter by Box and Muller, with an error bar that is `bar` times the right one and a bias.
-    fn runs(seeds: usize, readings: usize, bar: f64, bias: f64) -> Vec<Vec<Option<Made>>> {
+    fn runs(seeds: usize, readings: usize, bar: f64, bias: f64) -> Vec<Run> {
         let mut state = 7_u64;
         let mut uniform = move || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -16,7 +16,7 @@ use crate::{
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
-        covered::{Covered, LEVELS, Made, Truth, USUAL},
+        covered::{Covered, LEVELS, Made, Run, Truth, USUAL},
         lab::Lab,
         table::row,
     },
@@ -115,7 +115,7 @@ fn read<const C: usize>(
     method: Method,
     p: &Parameters,
     first: u64,
-) -> anyhow::Result<(Vec<Vec<Option<Made>>>, Vec<Truth>)> {
+) -> anyhow::Result<(Vec<Run>, Vec<Truth>)> {
     let counts = method == Method::Bins;
     let readable = |cell: &Cell| match cell.target {
         Target::Leaving { .. } => counts,
@@ -242,14 +242,7 @@ fn figure(
     }
 }
 
-fn scene_row(
-    entry: &Entry,
-    case: &Case,
-    method: &str,
-    set_aside: bool,
-    runs: &[Vec<Option<Made>>],
-    truths: &[Truth],
-) -> Row {
+fn scene_row(entry: &Entry, case: &Case, method: &str, set_aside: bool, runs: &[Run], truths: &[Truth]) -> Row {
     let mut covered = Covered::default();
     covered.add(runs, truths);
     let share = |of: &photonlab_measure::Replicates| of.mean().map(|share| (1e4 * share).round() / 1e4);
