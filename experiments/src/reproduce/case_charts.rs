@@ -47,7 +47,7 @@ impl CaseCharts {
             id: "deviations".into(),
             title: "Readings of scenes with known answers".into(),
             caption: "Each point is one meter, read by the way that suits it; bars: 99.99 % intervals with bias bounds, each one \
-                      unit to either side. Every bar should cross zero."
+                      unit to either side. Every bar should cross zero, or miss it by no more than its answer is uncertain."
                 .into(),
             x: x.clone(),
             y: Axis::linear("measured less expected, over the half-width"),

@@ -137,7 +137,7 @@ pub(super) struct MeterReadings {
 /// Reads every meter of a scene. First each way reads all it can for a short time. The way whose half-width promises the
 /// wanted one soonest then reads the meter with other random numbers until it is that narrow, or its time is over. Neither
 /// the choice nor the time looks at the answer.
-pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec<MeterReadings>> {
+pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule, seed: u64) -> anyhow::Result<Vec<MeterReadings>> {
     let cells = Cell::of_meters(&lab.world.scene);
     let precisions: Vec<f64> = cells.iter().map(|cell| rule.precision_of(cell)).collect();
     let finest = |of: &[usize]| of.iter().map(|&i| precisions[i]).fold(f64::INFINITY, f64::min);
@@ -145,7 +145,7 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec
     for way in Way::ALL {
         let readable: Vec<usize> = (0..cells.len()).filter(|&i| way.can_read(lab, &cells[i])).collect();
         let end = (finest(&readable), rule.pilot_seconds);
-        for (i, attempt) in attempt::<C>(lab, &cells, &readable, way, rule.seed, end)? {
+        for (i, attempt) in attempt::<C>(lab, &cells, &readable, way, seed, end)? {
             attempts[i].push(attempt);
         }
     }
@@ -167,7 +167,7 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule) -> anyhow::Result<Vec
         let within_reach = |i: &&usize| readings[**i].reading.paths_to(precisions[**i]) <= rule.most_paths;
         let meters = due.iter().filter(within_reach).count().max(1);
         let end = (finest(&due), rule.seconds * meters as f64);
-        for (i, attempt) in attempt::<C>(lab, &cells, &due, way, rule.seed + 1, end)? {
+        for (i, attempt) in attempt::<C>(lab, &cells, &due, way, seed + 1, end)? {
             readings[i].reading = attempt;
         }
     }
