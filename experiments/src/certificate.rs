@@ -13,6 +13,9 @@ const RESOLVED: f64 = 1e-3;
 /// A reading of which light that rays meet too seldom to show may be more than this share is not certified.
 const RARE: f64 = 0.05;
 
+/// A reading of which more than this share of the balls reached over an edge is not certified, however little they read there.
+const ASTRAY: f64 = 0.01;
+
 /// A reading whose kernel bias is surely more than this share of it is not certified. The bound is the bias's leading order: on a
 /// round peak (a Gaussian) of this bias it falls short by one per cent of the reading, on sharper ones by many times itself.
 const STRAIGHT: f64 = 0.05;
@@ -38,6 +41,13 @@ pub(crate) fn objections<const C: usize>(result: &CellResult<C>, channel: usize,
             "{:.2} % of the value was gathered with a ball that reaches over an edge or onto another surface, where the bias has no \
              bound",
             100.0 * unresolved
+        ));
+    }
+    let astray = result.astray.mean().unwrap_or(0.0);
+    if unresolved <= RESOLVED && astray > ASTRAY {
+        objections.push(format!(
+            "{:.0} % of the balls with which the map was read reach over an edge or onto another surface, and what they lack has no bound",
+            100.0 * astray
         ));
     }
     let bend = result.bend(channel, t);

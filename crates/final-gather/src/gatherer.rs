@@ -249,6 +249,7 @@ impl<const C: usize> Gatherer<'_, C> {
             photons: estimate.photons as f64,
             reads: 1.0,
             glints: 0.0,
+            astray: 0.0,
         }
     }
 }

@@ -145,6 +145,7 @@ impl<const C: usize> Walk<'_, '_, C> {
             photons: found.photons as f64,
             reads: 1.0,
             glints: 0.0,
+            astray: 0.0,
         };
         self.landing.scattered.add(&light.weighted(self.weight));
     }

@@ -19,6 +19,8 @@ pub struct Light<const C: usize> {
     pub photons: f64,
     /// Times that a map was read. Where none was, no photon was asked for: all light came by rays to lamps.
     pub reads: f64,
+    /// Times that the map was read at the point itself with a ball reaching over an edge or onto another surface.
+    pub astray: f64,
     /// Rays from diffuse points that met a lamp behind specular surfaces, by chance.
     pub glints: f64,
 }
@@ -33,6 +35,7 @@ impl<const C: usize> Light<C> {
         self.photons += other.photons;
         self.reads += other.reads;
         self.glints += other.glints;
+        self.astray += other.astray;
     }
 
     /// Weights flux quantities; the photons that were looked at stay.
@@ -45,6 +48,7 @@ impl<const C: usize> Light<C> {
             photons: self.photons,
             reads: self.reads,
             glints: self.glints,
+            astray: self.astray,
         }
     }
 
@@ -58,6 +62,7 @@ impl<const C: usize> Light<C> {
             photons: self.photons,
             reads: self.reads,
             glints: self.glints,
+            astray: self.astray,
         }
     }
 
@@ -66,6 +71,7 @@ impl<const C: usize> Light<C> {
         Self {
             photons: self.photons / samples,
             reads: self.reads / samples,
+            astray: self.astray / samples,
             glints: self.glints / samples,
             noise: self.noise / samples,
             ..self.weighted(Colour::splat(1.0 / samples))

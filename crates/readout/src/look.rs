@@ -202,7 +202,8 @@ impl<const C: usize> Look<'_, C> {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,
         };
-        let unresolved = found.photons > 0 && self.world.ball_leaves_surface(at, reach);
+        let astray = self.world.ball_leaves_surface(at, reach);
+        let unresolved = found.photons > 0 && astray;
         let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
         let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
         Light {
@@ -214,6 +215,7 @@ impl<const C: usize> Look<'_, C> {
             photons: found.photons as f64,
             reads: 1.0,
             glints: 0.0,
+            astray: f64::from(u8::from(astray)),
         }
     }
 }

@@ -21,6 +21,9 @@ pub struct CellResult<const C: usize> {
     pub unresolved: [Replicates; C],
     /// Photons behind the value, over all passes.
     pub photons: f64,
+    /// Share of the readings of the map at the point itself whose ball reached over an edge or onto another surface, over the passes.
+    /// A ball far wider than its surface reads next to nothing of what it lacks, so that [`CellResult::unresolved`] is small.
+    pub astray: Replicates,
     /// True if a map was read at all.
     pub asked_photons: bool,
     /// True if every sample proved that there can be no light.
@@ -47,6 +50,7 @@ impl<const C: usize> Default for CellResult<C> {
             bias: none,
             unresolved: none,
             photons: 0.0,
+            astray: Replicates::new(),
             asked_photons: false,
             dark: true,
             glints: 0.0,
@@ -65,6 +69,9 @@ impl<const C: usize> CellResult<C> {
             self.unresolved[channel].push(mean.unresolved[channel]);
         }
         self.photons += photons;
+        if mean.reads > 0.0 {
+            self.astray.push(mean.astray / mean.reads);
+        }
         self.asked_photons |= mean.reads > 0.0;
         self.dark &= dark;
     }
