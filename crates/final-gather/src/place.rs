@@ -69,11 +69,21 @@ impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Aroun
             radius,
             least_cosine: f64::from(SAME_SURFACE),
         };
-        let stores = |primitive, front| optics.stores(world, primitive, front);
-        let inside = world.surface_inside(&around, &Weight(kernel), stores)?;
-        let second = inside.second.to_cols_array_2d();
-        Some(Inside { area: inside.area, first: inside.first.to_array(), second })
+        surface_inside(world, &around, kernel, |primitive, front| optics.stores(world, primitive, front))
     }
+}
+
+/// What [`World::surface_inside`] finds of a kernel, as a map asks for it: exact for flat faces, discs and spheres, and `None` where
+/// another curved surface is in the ball. Areas in square metres, first moments in m^3, second ones in m^4.
+pub fn surface_inside(
+    world: &World,
+    around: &Neighbourhood,
+    kernel: Kernel,
+    stores: impl Fn(u32, bool) -> bool,
+) -> Option<Inside> {
+    let inside = world.surface_inside(around, &Weight(kernel), stores)?;
+    let second = inside.second.to_cols_array_2d();
+    Some(Inside { area: inside.area, first: inside.first.to_array(), second })
 }
 
 /// A kernel as the scene's geometry takes it.

@@ -28,6 +28,7 @@ mod incomplete_beta;
 mod interval;
 mod kolmogorov;
 mod ledger;
+mod lines;
 mod measurement;
 mod quantile;
 mod reading;

@@ -106,13 +106,13 @@ pub enum RecordError {
 }
 
 impl Record {
-    /// Writes the record as indented JSON, to a file of its own beside `path` first, which then takes its place.
+    /// Writes the record as JSON, a line for each entry of its lists, to a file of its own beside `path` first, which then takes its place.
     ///
     /// The folder must exist. Refuses what [`Record::check`] refuses.
     pub fn save(&self, path: &Path) -> Result<(), RecordError> {
         self.check()?;
-        let text = serde_json::to_string_pretty(self).expect("strings, numbers and lists have a JSON form") + "\n";
-        replace_file(path, text.as_bytes()).map_err(|source| RecordError::Write { path: path.to_owned(), source })
+        let text = crate::lines::to_lines(self).expect("strings, numbers and lists have a JSON form");
+        replace_file(path, &text).map_err(|source| RecordError::Write { path: path.to_owned(), source })
     }
 
     /// Reads a record and checks it; an unknown or missing field is an error.

@@ -6,52 +6,37 @@ use photonlab_scene::World;
 
 use crate::{Counted, Counter, Job, TraceError, Traced, counter, follow_all};
 
+/// The photons of one pass and where they fly.
+#[derive(Clone, Copy)]
+pub(crate) struct Flight<'f, const C: usize> {
+    pub(crate) world: &'f World,
+    pub(crate) optics: &'f Optics<C>,
+    pub(crate) plan: &'f EmissionPlan<C>,
+    pub(crate) job: &'f Job,
+}
+
 /// [`crate::trace`] and [`crate::count`] in `C` channels.
 pub(crate) trait Tracer<const C: usize>: Sync {
-    fn trace(
-        &self,
-        world: &World,
-        optics: &Optics<C>,
-        plan: &EmissionPlan<C>,
-        job: &Job,
-    ) -> Result<Traced<C>, TraceError>;
-
-    fn count(
-        &self,
-        world: &World,
-        optics: &Optics<C>,
-        plan: &EmissionPlan<C>,
-        job: &Job,
-        cells: usize,
-        counter: &dyn Counter,
-    ) -> Result<Counted<C>, TraceError>;
+    fn trace(&self, flight: Flight<'_, C>) -> Result<Traced<C>, TraceError>;
+    fn count(&self, flight: Flight<'_, C>, cells: usize, counter: &dyn Counter) -> Result<Counted<C>, TraceError>;
 }
 
 struct Compiled;
 
 macro_rules! compile {
-    ($($channels:expr),*) => {$(
-        impl Tracer<{ $channels }> for Compiled {
-            fn trace(
-                &self,
-                world: &World,
-                optics: &Optics<{ $channels }>,
-                plan: &EmissionPlan<{ $channels }>,
-                job: &Job,
-            ) -> Result<Traced<{ $channels }>, TraceError> {
-                follow_all(world, optics, plan, job)
+    ($($c:expr),*) => {$(
+        impl Tracer<{ $c }> for Compiled {
+            fn trace(&self, flight: Flight<'_, { $c }>) -> Result<Traced<{ $c }>, TraceError> {
+                follow_all(flight)
             }
 
             fn count(
                 &self,
-                world: &World,
-                optics: &Optics<{ $channels }>,
-                plan: &EmissionPlan<{ $channels }>,
-                job: &Job,
+                flight: Flight<'_, { $c }>,
                 cells: usize,
                 counter: &dyn Counter,
-            ) -> Result<Counted<{ $channels }>, TraceError> {
-                counter::count_all(world, optics, plan, job, cells, counter)
+            ) -> Result<Counted<{ $c }>, TraceError> {
+                counter::count_all(flight, cells, counter)
             }
         }
     )*};

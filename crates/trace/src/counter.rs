@@ -5,7 +5,11 @@ use photonlab_photometry::Colour;
 use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::{Hit, World};
 
-use crate::{Classes, Job, Ledger, TraceError, Traced, compiled::tracer, in_chunks, path};
+use crate::{
+    Classes, Job, Ledger, TraceError, Traced,
+    compiled::{Flight, tracer},
+    in_chunks, path,
+};
 
 /// Knows the cells in which a photon counts.
 pub trait Counter: Sync {
@@ -36,14 +40,11 @@ pub fn count<const C: usize>(
     cells: usize,
     counter: &dyn Counter,
 ) -> Result<Counted<C>, TraceError> {
-    tracer().count(world, optics, plan, job, cells, counter)
+    tracer().count(Flight { world, optics, plan, job }, cells, counter)
 }
 
 pub(crate) fn count_all<const C: usize>(
-    world: &World,
-    optics: &Optics<C>,
-    plan: &EmissionPlan<C>,
-    job: &Job,
+    Flight { world, optics, plan, job }: Flight<'_, C>,
     cells: usize,
     counter: &dyn Counter,
 ) -> Result<Counted<C>, TraceError> {

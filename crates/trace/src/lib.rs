@@ -18,7 +18,7 @@ use photonlab_sampling::{EmissionPlan, Optics};
 use photonlab_scene::World;
 use rayon::prelude::*;
 
-use compiled::tracer;
+use compiled::{Flight, tracer};
 use counter::NoCounter;
 
 /// Photons followed by one task; part of nothing that can be read from the result.
@@ -77,15 +77,10 @@ pub fn trace<const C: usize>(
     plan: &EmissionPlan<C>,
     job: &Job,
 ) -> Result<Traced<C>, TraceError> {
-    tracer().trace(world, optics, plan, job)
+    tracer().trace(Flight { world, optics, plan, job })
 }
 
-fn follow_all<const C: usize>(
-    world: &World,
-    optics: &Optics<C>,
-    plan: &EmissionPlan<C>,
-    job: &Job,
-) -> Result<Traced<C>, TraceError> {
+fn follow_all<const C: usize>(Flight { world, optics, plan, job }: Flight<'_, C>) -> Result<Traced<C>, TraceError> {
     let parts = in_chunks(plan, |numbers| {
         let mut part = Traced::empty(world);
         for number in numbers {

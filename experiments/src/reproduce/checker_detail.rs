@@ -8,7 +8,7 @@ use photonlab_reference::checker::{Checker, Shower};
 
 use super::{
     context::Findings,
-    cpu_clock::CpuClock,
+    cpu_clock::{CpuClock, microseconds},
     field::stream,
     lab::Lab,
     strategy::Strategy,
@@ -93,8 +93,7 @@ impl Squares {
                     ("way", name.into()),
                     ("seed", seed.into()),
                     ("squared_error", error.into()),
-                    ("law", if way == 0 { squares.law.into() } else { serde_json::Value::Null }),
-                    ("cpu_seconds", seconds.into()),
+                    ("cpu_seconds", microseconds(seconds).into()),
                 ]));
             }
         }

@@ -6,6 +6,11 @@ use std::{fs, time::Instant};
 pub(super) const CPU_SECONDS: &str =
     "CPU seconds are the time on processors of all threads of the process (wall time where the system does not tell)";
 
+/// Seconds to a millionth: the digits below are no measurement, and records are long.
+pub(super) fn microseconds(seconds: f64) -> f64 {
+    (1e6 * seconds).round() / 1e6
+}
+
 /// Runs from its start.
 pub(super) struct CpuClock {
     cpu: Option<f64>,

@@ -7,7 +7,7 @@ use photonlab_readout::{Cell, Wanted};
 
 use super::{
     context::Findings,
-    cpu_clock::{CPU_SECONDS, CpuClock},
+    cpu_clock::{CPU_SECONDS, CpuClock, microseconds},
     lab::Lab,
     strategy::Strategy,
 };
@@ -200,6 +200,6 @@ fn row(scene: &str, strategy: &Strategy, photons: Option<u64>, points: u64, seed
     row.insert("points".into(), points.into());
     row.insert("seed".into(), seed.into());
     row.insert("rms".into(), rms.into());
-    row.insert("cpu_seconds".into(), seconds.into());
+    row.insert("cpu_seconds".into(), microseconds(seconds).into());
     row
 }

@@ -1,8 +1,9 @@
 //! Surfaces under synthetic photons, for the remedies that ask how much surface is there.
 
 use glam::DVec3;
+use photonlab_final_gather::surface_inside;
 use photonlab_gather::{GatherPoint, Inside, Kernel, Surroundings};
-use photonlab_scene::{Neighbourhood, RadialWeight, World, read::read_scene_str};
+use photonlab_scene::{Neighbourhood, World, read::read_scene_str};
 
 use crate::reproduce::faces::Face;
 
@@ -63,25 +64,6 @@ impl<P> Surroundings<P> for Around<'_> {
     fn inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
         let least_cosine = self.ground.least_cosine;
         let around = Neighbourhood { position: self.position, primitive: 0, normal: self.normal, radius, least_cosine };
-        let inside = self.ground.world.surface_inside(&around, &Weight(kernel), |_, front| front)?;
-        let second = inside.second.to_cols_array_2d();
-        Some(Inside { area: inside.area, first: inside.first.to_array(), second })
-    }
-}
-
-/// A kernel as the scene's geometry takes it.
-struct Weight(Kernel);
-
-impl RadialWeight for Weight {
-    fn weight(&self, t: f64) -> f64 {
-        self.0.weight(t)
-    }
-
-    fn mass(&self, t: f64) -> f64 {
-        self.0.mass(t)
-    }
-
-    fn second(&self, t: f64) -> f64 {
-        self.0.second(t)
+        surface_inside(&self.ground.world, &around, kernel, |_, front| front)
     }
 }
