@@ -6,7 +6,7 @@ use crate::node::Node;
 use crate::tree::KdTree;
 use crate::visits::{Meter, Unmetered, Visits};
 
-/// Is shown the blocks that have points in the ball.
+/// Is shown the blocks that may have points in the ball.
 trait Visitor {
     /// What it gathers on the way, in registers where it can.
     type State<L: Lanes>;
@@ -30,14 +30,16 @@ impl<V: FnMut(usize, u16, &[f32; BLOCK])> Visitor for Each<V> {
 
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, _: &mut (), first: usize, mask: u16, distances: L::Floats) {
-        (self.0)(first, mask, &L::store(distances));
+        if mask != 0 {
+            (self.0)(first, mask, &L::store(distances));
+        }
     }
 
     #[inline(always)]
     fn finish<L: Lanes>(&mut self, _: ()) {}
 }
 
-/// Adds the payloads, in sixteen lanes.
+/// Adds the payloads, in sixteen lanes; of few channels also those of no point, which costs less than to guess whether there is one.
 struct Sum<'a, const N: usize> {
     payload: &'a [[f32; N]],
     sums: [[f32; BLOCK]; N],
@@ -53,6 +55,9 @@ impl<const N: usize> Visitor for Sum<'_, N> {
 
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, sums: &mut [L::Floats; N], first: usize, mask: u16, _: L::Floats) {
+        if N > 4 && mask == 0 {
+            return;
+        }
         match self.payload[first..].first_chunk::<BLOCK>() {
             Some(rows) => L::add_rows(sums, rows.as_flattened(), mask),
             None => {
@@ -118,9 +123,7 @@ impl<V: Visitor, M: Meter> Walk<'_, V, M> {
     fn block<L: Lanes>(&mut self, state: &mut V::State<L>, block: usize, lanes: u16) {
         let distances = L::to_points(&self.blocks[block], &self.query);
         let mask = L::within(distances, self.reach) & lanes;
-        if mask != 0 {
-            self.visitor.visit::<L>(state, block * BLOCK, mask, distances);
-        }
+        self.visitor.visit::<L>(state, block * BLOCK, mask, distances);
     }
 }
 

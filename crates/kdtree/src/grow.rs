@@ -3,8 +3,10 @@
 use crate::block::BLOCK;
 use crate::bounds::Bounds;
 use crate::branch::Branch;
-use crate::item::{Item, bounds, item, key};
+use crate::columns::{Around, Columns, ColumnsMut, Table};
+use crate::lanes::{Instructions, dispatch};
 use crate::node::WIDTH;
+use crate::rank::Part;
 
 /// Below this many points a subtree is built by one thread.
 const SERIAL: usize = 1 << 13;
@@ -18,41 +20,72 @@ pub(crate) struct Parting {
 
 /// Chooses where to part the points of a box that is not a single point; `None` stands for the median.
 pub(crate) trait Choose: Sync {
-    fn choose(&self, items: &[Item], bounds: &Bounds) -> Option<Parting>;
+    fn choose(&self, points: &Columns, bounds: &Bounds) -> Option<Parting>;
 }
 
-/// The tree of at least one point, and the points with the bits of their original indices in the order of its leaves.
-pub(crate) fn build(points: &[[f32; 3]], leaf_limit: usize, rule: &impl Choose) -> (Branch, Vec<Item>) {
-    let mut items: Vec<Item> = (0..points.len() as u32).map(|index| item(points, index)).collect();
+/// The tree of at least one point, and the points in the order of its leaves, within a leaf in the order given.
+pub(crate) fn build(points: &[[f32; 3]], leaf_limit: usize, rule: &impl Choose) -> (Branch, Table) {
+    let mut table = Table::of(points, 0..points.len() as u32);
+    let mut spare = Table::like(&table);
+    let instructions = Instructions::widest();
+    let bounds = dispatch(instructions, Around(table.columns()));
     // With the medians that follow, at most 78 cuts.
     let chosen_cuts = 16 + points.len().next_power_of_two().ilog2() as usize;
-    let root = grow(&mut items, leaf_limit, rule, chosen_cuts);
-    (root, items)
+    let grower = Grower { leaf_limit, rule, instructions };
+    let run = Run { here: table.columns_mut(), there: spare.columns_mut(), is_home: true };
+    let root = grower.grow(run, bounds, chosen_cuts);
+    (root, table)
 }
 
-/// Recursion is as deep as the tree: below the chosen cuts, each halves the count.
-fn grow(items: &mut [Item], leaf_limit: usize, rule: &impl Choose, chosen_cuts: usize) -> Branch {
-    let bounds = bounds(items);
-    let axis = match bounds.widest_axis() {
-        Some(axis) if items.len() > leaf_limit => axis,
-        _ => return Branch::leaf(bounds, items.len()),
-    };
-    let chosen = if chosen_cuts > 0 { rule.choose(items, &bounds) } else { None };
-    let parting = match chosen {
-        Some(Parting { axis, left }) => Parting { axis, left: whole_blocks(left, items.len(), leaf_limit) },
-        None => Parting { axis, left: middle(items.len(), leaf_limit) },
-    };
+/// The points of a node, and as much room.
+struct Run<'a> {
+    here: ColumnsMut<'a>,
+    there: ColumnsMut<'a>,
+    /// Whether the leaves' points belong here rather than there.
+    is_home: bool,
+}
 
-    // A total order makes the two parts, as sets, a function of the points alone.
-    items.select_nth_unstable_by_key(parting.left, |item| key(item, parting.axis));
+/// What stays the same for every node.
+struct Grower<'a, R> {
+    leaf_limit: usize,
+    rule: &'a R,
+    instructions: Instructions,
+}
 
-    let serial = items.len() < SERIAL;
-    let (low, high) = items.split_at_mut(parting.left);
-    let cuts = chosen_cuts.saturating_sub(1);
-    let mut left = || grow(low, leaf_limit, rule, cuts);
-    let mut right = || grow(high, leaf_limit, rule, cuts);
-    let (left, right) = if serial { (left(), right()) } else { rayon::join(left, right) };
-    Branch::inner(bounds, left, right)
+impl<R: Choose> Grower<'_, R> {
+    /// Recursion is as deep as the tree: below the chosen cuts, each halves the count.
+    fn grow(&self, run: Run, bounds: Bounds, chosen_cuts: usize) -> Branch {
+        let Run { here, mut there, is_home } = run;
+        let len = here.len();
+        let axis = match bounds.widest_axis() {
+            Some(axis) if len > self.leaf_limit => axis,
+            _ => {
+                if !is_home {
+                    there.copy_from(&here.as_columns());
+                }
+                return Branch::leaf(bounds, len);
+            }
+        };
+        let chosen = if chosen_cuts > 0 { self.rule.choose(&here.as_columns(), &bounds) } else { None };
+        let Parting { axis, left: rank } = match chosen {
+            Some(Parting { axis, left }) => Parting { axis, left: whole_blocks(left, len, self.leaf_limit) },
+            None => Parting { axis, left: middle(len, self.leaf_limit) },
+        };
+
+        let part = Part { from: here.as_columns(), to: there, bounds, axis, rank };
+        let [low, high] = dispatch(self.instructions, part);
+
+        let room = here.split_at(rank);
+        let cuts = chosen_cuts.saturating_sub(1);
+        let side = |(here, bounds), there| self.grow(Run { here, there, is_home: !is_home }, bounds, cuts);
+        let [low_room, high_room] = room;
+        let (left, right) = if len < SERIAL {
+            (side(low, low_room), side(high, high_room))
+        } else {
+            rayon::join(|| side(low, low_room), || side(high, high_room))
+        };
+        Branch::inner(bounds, left, right)
+    }
 }
 
 /// Half, but for whole blocks, and for whole nodes of blocks where there are several: so that these are full.

@@ -1,14 +1,14 @@
 //! Building by the median rule.
 
 use crate::bounds::Bounds;
+use crate::columns::Columns;
 use crate::grow::{Choose, Parting};
-use crate::item::Item;
 
 /// Always the median along the widest axis.
 pub(crate) struct Median;
 
 impl Choose for Median {
-    fn choose(&self, _: &[Item], _: &Bounds) -> Option<Parting> {
+    fn choose(&self, _: &Columns, _: &Bounds) -> Option<Parting> {
         None
     }
 }
@@ -17,7 +17,6 @@ impl Choose for Median {
 mod tests {
     use super::*;
     use crate::grow::build;
-    use crate::item::index;
 
     #[test]
     fn halves_along_the_widest_axis_whatever_repeats() {
@@ -26,7 +25,7 @@ mod tests {
         points.insert(5, [0.0, 9.0, 1.0]);
         let (root, order) = build(&points, 1, &Median);
         // The far half holds the lone point; halves of equal points are not cut further.
-        assert_eq!(order.last().map(index), Some(5));
+        assert_eq!(order.columns().index(63), 5);
         assert_eq!(root.leaves(), 7);
     }
 
@@ -37,7 +36,7 @@ mod tests {
         let (_, order) = build(&points, 2560, &Median);
         let mut equal = (0..5000).filter(|i| i % 10 != 0);
         let low: Vec<u32> = equal.by_ref().take(2560).collect();
-        let mut found: Vec<u32> = order[..2560].iter().map(index).collect();
+        let mut found: Vec<u32> = (0..2560).map(|place| order.columns().index(place)).collect();
         found.sort_unstable();
         assert_eq!(found, low);
     }

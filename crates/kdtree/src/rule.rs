@@ -61,7 +61,7 @@ pub enum EmptyCost {
 }
 
 /// [`VisitCost::BallInSpace`] for 100 nearest: in a caustic a query tests a quarter fewer points than over medians, on
-/// walls and in a volume as many. Its build takes twice the median's time.
+/// walls and in a volume as many. Its build takes 2 to 2.5 times the median's.
 impl Default for SplitRule {
     fn default() -> Self {
         Self::Binned(VisitCost::BallInSpace(Reach::Nearest(100)))

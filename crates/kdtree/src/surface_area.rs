@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::bounds::Bounds;
 use crate::branch::Branch;
-use crate::item::{Item, item};
+use crate::columns::Table;
 use crate::rule::EmptyCost;
 use crate::sweep::{Cut, Seek};
 
@@ -16,8 +16,8 @@ pub(crate) fn depth_limit(count: usize) -> usize {
     16 + 2 * count.next_power_of_two().ilog2() as usize
 }
 
-/// The tree of at least one point, and the original indices in the order of its leaves.
-pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize, seek: Seek) -> (Branch, Vec<Item>) {
+/// The tree of at least one point, and the points in the order of its leaves, within a leaf in the order given.
+pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usize, seek: Seek) -> (Branch, Table) {
     let mut sorted: [Vec<u32>; 3] = std::array::from_fn(|axis| sorted_along(points, axis));
     let mut scratch = vec![0; points.len()];
     let [x, y, z] = &mut sorted;
@@ -25,7 +25,7 @@ pub(crate) fn build(points: &[[f32; 3]], empty_cost: EmptyCost, leaf_limit: usiz
     let cell = orders.tight_box(points);
     let root = Builder { points, empty_cost, leaf_limit, seek }.grow(cell, orders, depth_limit(points.len()));
     let [order, ..] = sorted;
-    (root, order.par_iter().map(|&i| item(points, i)).collect())
+    (root, Table::of(points, order.into_iter()))
 }
 
 fn sorted_along(points: &[[f32; 3]], axis: usize) -> Vec<u32> {
@@ -195,6 +195,6 @@ mod tests {
     fn a_leaf_keeps_the_order_given() {
         let points: Vec<[f32; 3]> = (0..99).map(|i| [-(i as f32), 0.0, (i % 7) as f32]).collect();
         let (_, order) = build(&points, EmptyCost::Constant(f64::INFINITY), 1, best_cut);
-        assert_eq!(order.iter().map(crate::item::index).collect::<Vec<_>>(), (0..99).collect::<Vec<_>>());
+        assert!((0..99).all(|place| order.columns().index(place as usize) == place));
     }
 }

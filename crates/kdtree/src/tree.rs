@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::binned::Binned;
 use crate::block::{BLOCK, Block};
 use crate::error::BuildError;
-use crate::item::{self, Item};
 use crate::lanes::Instructions;
 use crate::median::Median;
 use crate::node::Node;
@@ -56,15 +55,18 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         let leaf_limit = leaf_limit.max(1);
         let (root, order) = match rule {
             SplitRule::Median => grow::build(&points, leaf_limit, &Median),
-            SplitRule::Binned(cost) => grow::build(&points, leaf_limit, &Binned(cost)),
+            SplitRule::Binned(cost) => grow::build(&points, leaf_limit, &Binned { cost, instructions }),
             SplitRule::SurfaceArea { empty_cost } => surface_area::build(&points, empty_cost, leaf_limit, best_cut),
             SplitRule::Enumeration { empty_cost } => {
                 surface_area::build(&points, empty_cost, leaf_limit, enumerated_cut)
             }
         };
-        let block = |run: &[Item]| Block::of(run.iter().map(|&[x, y, z, _]| [x, y, z]));
-        let blocks = order.par_chunks(BLOCK).with_min_len(256).map(block).collect();
-        let payload = order.par_iter().with_min_len(4096).map(|item| payload[item::index(item) as usize]).collect();
+        let order = order.columns();
+        let block = |first: usize| Block::of((first..points.len().min(first + BLOCK)).map(|place| order.point(place)));
+        let starts = (0..points.len()).into_par_iter().step_by(BLOCK);
+        let blocks = starts.with_min_len(256).map(block).collect();
+        let places = (0..points.len()).into_par_iter();
+        let payload = places.with_min_len(4096).map(|place| payload[order.index(place) as usize]).collect();
         Ok(Self { nodes: root.into_nodes(), blocks, payload, instructions })
     }
 
@@ -86,7 +88,7 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         self.payload.is_empty()
     }
 
-    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in an order that the points and the rule fix.
+    /// The point of tree index `i`. Tree order goes leaf after leaf, within a leaf in the order given.
     ///
     /// # Panics
     ///

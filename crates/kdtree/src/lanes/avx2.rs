@@ -111,6 +111,26 @@ fn bits([low, high]: [__m256; 2]) -> u16 {
     (_mm256_movemask_ps(low) | _mm256_movemask_ps(high) << 8) as u16
 }
 
+/// Moves the masked lanes to the front of `kept`, overwriting others as far as there is room.
+#[inline]
+#[target_feature(enable = "avx2,popcnt")]
+fn pack(lanes: [__m256; 2], mask: u16, kept: &mut [f32]) {
+    let next = (mask & 0xff).count_ones() as usize;
+    let low = _mm256_permutevar8x32_ps(lanes[0], masked_lanes(mask));
+    let high = _mm256_permutevar8x32_ps(lanes[1], masked_lanes(mask >> 8));
+    unsafe {
+        if kept.len() >= 16 {
+            _mm256_storeu_ps(kept.as_mut_ptr(), low);
+            _mm256_storeu_ps(kept[next..][..8].as_mut_ptr(), high);
+        } else {
+            let mut packed = [0.0; 16];
+            _mm256_storeu_ps(packed.as_mut_ptr(), low);
+            _mm256_storeu_ps(packed[next..][..8].as_mut_ptr(), high);
+            kept.copy_from_slice(&packed[..kept.len()]);
+        }
+    }
+}
+
 // Neither iterators nor closures of other functions may carry registers here: they are compiled without AVX.
 impl Lanes for Avx2 {
     type Floats = [__m256; 2];
@@ -188,6 +208,30 @@ impl Lanes for Avx2 {
             _mm256_storeu_si256(kept.as_mut_ptr().cast(), low);
             _mm256_storeu_si256(kept[next..][..8].as_mut_ptr().cast(), high);
         }
+    }
+
+    #[inline(always)]
+    fn part(values: &[[f32; 16]], masks: &[u16], low: &mut [f32], high: &mut [f32]) {
+        let (mut lows, mut highs) = (0, 0);
+        for i in 0..values.len() {
+            let (lanes, mask) = (Self::load(&values[i]), masks[i]);
+            unsafe {
+                pack(lanes, mask, &mut low[lows..]);
+                pack(lanes, !mask, &mut high[highs..]);
+            }
+            lows += mask.count_ones() as usize;
+            highs += mask.count_zeros() as usize;
+        }
+    }
+
+    #[inline(always)]
+    fn min(a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        unsafe { [_mm256_min_ps(a[0], b[0]), _mm256_min_ps(a[1], b[1])] }
+    }
+
+    #[inline(always)]
+    fn max(a: [__m256; 2], b: [__m256; 2]) -> [__m256; 2] {
+        unsafe { [_mm256_max_ps(a[0], b[0]), _mm256_max_ps(a[1], b[1])] }
     }
 
     #[inline(always)]

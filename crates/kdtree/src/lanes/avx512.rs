@@ -19,6 +19,40 @@ fn sum_of_squares([x, y, z]: [__m512; 3]) -> __m512 {
     _mm512_add_ps(xy, _mm512_mul_ps(z, z))
 }
 
+/// How many values are at most `limit`, counted in lanes.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn count_many(blocks: &[[f32; 16]], limit: f32) -> u32 {
+    let (limit, one) = (_mm512_set1_ps(limit), _mm512_set1_epi32(1));
+    let mut counts = [_mm512_setzero_si512(); 4];
+    let (fours, rest) = blocks.as_chunks::<4>();
+    for four in fours {
+        for i in 0..4 {
+            let mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(unsafe { _mm512_loadu_ps(four[i].as_ptr()) }, limit);
+            counts[i] = _mm512_mask_add_epi32(counts[i], mask, counts[i], one);
+        }
+    }
+    for (i, block) in rest.iter().enumerate() {
+        let mask = _mm512_cmp_ps_mask::<_CMP_LE_OQ>(unsafe { _mm512_loadu_ps(block.as_ptr()) }, limit);
+        counts[i] = _mm512_mask_add_epi32(counts[i], mask, counts[i], one);
+    }
+    let sum = |a, b| _mm512_add_epi32(a, b);
+    _mm512_reduce_add_epi32(sum(sum(counts[0], counts[1]), sum(counts[2], counts[3]))) as u32
+}
+
+/// As many lanes as there is room for.
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn store_some(room: &mut [f32], lanes: __m512) {
+    unsafe {
+        if room.len() >= 16 {
+            _mm512_storeu_ps(room.as_mut_ptr(), lanes);
+        } else {
+            _mm512_mask_storeu_ps(room.as_mut_ptr(), (1 << room.len()) - 1, lanes);
+        }
+    }
+}
+
 impl Lanes for Avx512 {
     type Floats = __m512;
 
@@ -77,7 +111,11 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn count(values: &[f32], limit: f32) -> usize {
         let (blocks, rest) = values.as_chunks::<16>();
-        let full: u32 = blocks.iter().map(|block| Self::within(Self::load(block), limit).count_ones()).sum();
+        let full: u32 = if blocks.len() < 16 {
+            blocks.iter().map(|block| Self::within(Self::load(block), limit).count_ones()).sum()
+        } else {
+            unsafe { count_many(blocks, limit) }
+        };
         full as usize + Portable::count(rest, limit)
     }
 
@@ -92,6 +130,30 @@ impl Lanes for Avx512 {
             let indices = _mm512_loadu_si512(indices.as_ptr().cast());
             _mm512_storeu_si512(kept.as_mut_ptr().cast(), _mm512_maskz_compress_epi32(mask, indices));
         }
+    }
+
+    #[inline(always)]
+    fn part(values: &[[f32; 16]], masks: &[u16], low: &mut [f32], high: &mut [f32]) {
+        let (mut lows, mut highs) = (0, 0);
+        for (values, &mask) in values.iter().zip(masks) {
+            unsafe {
+                let lanes = Self::load(values);
+                store_some(&mut low[lows..], _mm512_maskz_compress_ps(mask, lanes));
+                store_some(&mut high[highs..], _mm512_maskz_compress_ps(!mask, lanes));
+            }
+            lows += mask.count_ones() as usize;
+            highs += mask.count_zeros() as usize;
+        }
+    }
+
+    #[inline(always)]
+    fn min(a: __m512, b: __m512) -> __m512 {
+        unsafe { _mm512_min_ps(a, b) }
+    }
+
+    #[inline(always)]
+    fn max(a: __m512, b: __m512) -> __m512 {
+        unsafe { _mm512_max_ps(a, b) }
     }
 
     #[inline(always)]

@@ -51,6 +51,16 @@ pub(crate) trait Lanes {
     /// Moves the masked values to the front of `kept`, overwriting what follows.
     fn compress_indices(indices: &[u32; 16], mask: u16, kept: &mut [u32; 16]);
 
+    /// Moves the values whose bits are set, sixteen a mask, to the front of `low`, and the others to the front of `high`,
+    /// either in their order. There must be room; of the fifteen values that follow there, any are overwritten.
+    fn part(values: &[[f32; 16]], masks: &[u16], low: &mut [f32], high: &mut [f32]);
+
+    /// The lesser of each pair of lanes.
+    fn min(a: Self::Floats, b: Self::Floats) -> Self::Floats;
+
+    /// The greater of each pair of lanes.
+    fn max(a: Self::Floats, b: Self::Floats) -> Self::Floats;
+
     /// Asks for the cache lines of `items`, which will be read soon.
     fn prefetch<T>(items: &[T]);
 
@@ -79,12 +89,19 @@ mod tests {
             let (mut values, mut indices, mut kept) = ([0.0; 16], [0; 16], [0; 16]);
             L::compress(points, mask, 77, &mut values, &mut indices);
             L::compress_indices(&keys, mask, &mut kept);
+            let set = 2 * mask.count_ones() as usize;
+            let (mut roomy, mut low, mut high) = ([0.0; 48], vec![0.0; set], vec![0.0; 32 - set]);
+            let both = [L::store(points), L::store(boxes)];
+            L::part(&both, &[mask; 2], &mut low, &mut high);
+            L::part(&both, &[mask; 2], &mut roomy, &mut [0.0; 48]);
             let count = mask.count_ones() as usize;
             let zero = L::load(&[0.0; 16]);
             let (mut three, mut five) = ([zero; 3], [zero; 5]);
             L::add_rows(&mut three, list, mask);
             L::add_rows(&mut five, list, mask);
             let floats = L::store(points).into_iter().chain(L::store(boxes)).chain(values[..count].to_vec());
+            let floats = floats.chain(roomy[..set].to_vec()).chain(low).chain(high);
+            let floats = floats.chain(L::store(L::min(points, boxes))).chain(L::store(L::max(points, boxes)));
             let sums = three.into_iter().chain(five).flat_map(L::store);
             let mut bits: Vec<u32> = floats.chain(sums).map(f32::to_bits).collect();
             bits.extend(indices[..count].iter().chain(&kept[..count]));

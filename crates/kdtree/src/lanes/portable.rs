@@ -7,6 +7,19 @@ use crate::node::Node;
 /// No instruction set assumed.
 pub(crate) struct Portable;
 
+/// Every value goes to both sides and stays where the place is then taken: no branch is to be guessed.
+#[inline(always)]
+fn deal(values: &[f32; 16], mask: u16, low: &mut [f32; 16], high: &mut [f32; 16]) {
+    let (mut lows, mut highs) = (0, 0);
+    for (lane, &value) in values.iter().enumerate() {
+        low[lows & 15] = value;
+        high[highs & 15] = value;
+        let is_low = usize::from(mask >> lane & 1);
+        lows += is_low;
+        highs += 1 - is_low;
+    }
+}
+
 impl Lanes for Portable {
     type Floats = [f32; 16];
 
@@ -91,6 +104,42 @@ impl Lanes for Portable {
             next += 1;
             mask &= mask - 1;
         }
+    }
+
+    #[inline(always)]
+    fn part(values: &[[f32; 16]], masks: &[u16], low: &mut [f32], high: &mut [f32]) {
+        let (mut lows, mut highs) = (0, 0);
+        for (values, &mask) in values.iter().zip(masks) {
+            let (low, high) = (&mut low[lows..], &mut high[highs..]);
+            if let (Some(low), Some(high)) = (low.first_chunk_mut(), high.first_chunk_mut()) {
+                deal(values, mask, low, high);
+            } else {
+                let (mut below, mut above) = ([0.0; 16], [0.0; 16]);
+                deal(values, mask, &mut below, &mut above);
+                low.iter_mut().zip(below).for_each(|(low, value)| *low = value);
+                high.iter_mut().zip(above).for_each(|(high, value)| *high = value);
+            }
+            lows += mask.count_ones() as usize;
+            highs += mask.count_zeros() as usize;
+        }
+    }
+
+    #[inline(always)]
+    fn min(a: [f32; 16], b: [f32; 16]) -> [f32; 16] {
+        let mut least = b;
+        for lane in 0..16 {
+            least[lane] = if a[lane] < b[lane] { a[lane] } else { b[lane] };
+        }
+        least
+    }
+
+    #[inline(always)]
+    fn max(a: [f32; 16], b: [f32; 16]) -> [f32; 16] {
+        let mut greatest = b;
+        for lane in 0..16 {
+            greatest[lane] = if a[lane] > b[lane] { a[lane] } else { b[lane] };
+        }
+        greatest
     }
 
     #[inline(always)]
