@@ -22,7 +22,8 @@ impl Choose for Binned {
         let radius = self.cost.reach().map_or(0.0, |reach| reach.radius(extent, points.len()));
         let counts = dispatch(self.instructions, Histograms(points, bounds));
         let mut best: Option<(f64, Parting)> = None;
-        for axis in 0..3 {
+        for axis in (0..3).filter(|&axis| (counts[axis][0] as usize) < points.len()) {
+            let measures = self.measures(extent, axis, radius);
             let mut left = 0;
             for edge in 1..BINS {
                 left += counts[axis][edge - 1] as usize;
@@ -31,17 +32,26 @@ impl Choose for Binned {
                 if in_gap || left == 0 || left == points.len() {
                     continue;
                 }
-                let (mut low, mut high) = (extent, extent);
-                low[axis] *= edge as f64 / BINS as f64;
-                high[axis] *= (BINS - edge) as f64 / BINS as f64;
-                let cost =
-                    self.cost.of(low, radius) * left as f64 + self.cost.of(high, radius) * (points.len() - left) as f64;
+                let cost = measures[edge] * left as f64 + measures[BINS - edge] * (points.len() - left) as f64;
                 if best.is_none_or(|(least, _)| cost < least) {
                     best = Some((cost, Parting { axis, left }));
                 }
             }
         }
         best.map(|(_, parting)| parting)
+    }
+}
+
+impl Binned {
+    /// The measures of the box cut along the axis to each number of bins: both sides of every cut are among them.
+    fn measures(&self, mut extent: [f64; 3], axis: usize, radius: f64) -> [f64; BINS + 1] {
+        let whole = extent[axis];
+        let mut measures = [0.0; BINS + 1];
+        for (bins, measure) in measures.iter_mut().enumerate() {
+            extent[axis] = whole * (bins as f64 / BINS as f64);
+            *measure = self.cost.of(extent, radius);
+        }
+        measures
     }
 }
 

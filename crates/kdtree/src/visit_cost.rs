@@ -61,6 +61,7 @@ impl VisitCost {
     }
 
     /// The measure of a box of these edges, grown by `r`.
+    #[inline(always)]
     pub(crate) fn of(self, [a, b, c]: [f64; 3], r: f64) -> f64 {
         let (volume, surface, edges) = (a * b * c, 2.0 * (a * b + b * c + c * a), a + b + c);
         match self {
@@ -76,6 +77,7 @@ impl VisitCost {
 }
 
 /// Area and perimeter.
+#[inline(always)]
 fn largest_face([a, b, c]: [f64; 3]) -> (f64, f64) {
     let shortest = a.min(b).min(c);
     let (long, wide) = if shortest == a {
