@@ -16,9 +16,9 @@ use crate::{
 /// Photons of a nearest-photon estimate unless asked otherwise.
 const DEFAULT_K: usize = 50;
 
-/// What else `--area` offers asks for all surface in the ball, each face of a mesh: where many faces fit in one ball that takes
-/// longer than everything else, and a linear fit may read less than nothing beside a shadow. In the open all are one.
-const DEFAULT_AREA: AreaModel = AreaModel::Disc;
+/// Reads even light right up to edges and into corners, where the disc reads down to a quarter; what a slope leaves is in the error
+/// bar, and no reading is below zero, as a linear fit's may be. In the open it is the disc.
+pub(crate) const DEFAULT_ESTIMATOR: Estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
 
 impl Options {
     /// The settings for a scene.
@@ -56,14 +56,15 @@ impl Options {
             Some(AreaName::Clipped) => AreaModel::Clipped,
             Some(AreaName::Linear) => AreaModel::Linear,
             Some(AreaName::Disc) => AreaModel::Disc,
-            None => DEFAULT_AREA,
+            None => DEFAULT_ESTIMATOR.area,
         };
         let kernel = match self.kernel {
-            Some(KernelName::Disc) | None => Kernel::Disc,
+            Some(KernelName::Disc) => Kernel::Disc,
             Some(KernelName::Cone) => Kernel::Cone,
             Some(KernelName::Epanechnikov) => Kernel::Epanechnikov,
             Some(KernelName::Biweight) => Kernel::Biweight,
             Some(KernelName::Gaussian) => Kernel::Gaussian,
+            None => DEFAULT_ESTIMATOR.kernel,
         };
         Ok(Settings {
             method,

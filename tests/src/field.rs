@@ -118,10 +118,10 @@ struct Around<F> {
 
 impl<P, F: Fn(f64) -> Option<Inside>> Surroundings<P> for Around<F> {
     fn inside(&self, radius: f64, _: Kernel) -> Option<Inside> {
-        let Inside { area, first, second } = (self.inside)(radius)?;
+        let Inside { area, first, second, open } = (self.inside)(radius)?;
         let turn = self.frame.matrix3;
         let second = turn * DMat3::from_cols_array_2d(&second) * turn.transpose();
-        Some(Inside { area, first: (turn * DVec3::from(first)).to_array(), second: second.to_cols_array_2d() })
+        Some(Inside { area, first: (turn * DVec3::from(first)).to_array(), second: second.to_cols_array_2d(), open })
     }
 }
 

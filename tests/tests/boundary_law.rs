@@ -24,7 +24,7 @@ fn beside_edge(field: Field, [slope, bend]: [f64; 2], area: AreaModel, bandwidth
     field.gather_among(at, bandwidth, estimator, &Tests::default(), |query, radius| {
         let m = HalfPlaneMoments::new(PLACES[query] * RADIUS / radius);
         let second = [[m.across, 0.0, 0.0], [0.0, m.along, 0.0], [0.0; 3]];
-        Some(Inside { area: m.area, first: [m.first, 0.0, 0.0], second })
+        Some(Inside { area: m.area, first: [m.first, 0.0, 0.0], second, open: true })
     })
 }
 

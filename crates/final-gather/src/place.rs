@@ -34,14 +34,15 @@ impl<const C: usize> Place<'_, C> {
         let normal = self.sight.normals.geometric.as_vec3().to_array();
         let point = GatherPoint { position: self.world.stored(self.at.position), normal };
         if self.sight.is_plain() {
-            let around = Around { place: self, weigh: |_: &Photon<C>| 1.0 };
+            let around = Around { place: self, weigh: |_: &Photon<C>| 1.0, weighs: false };
             map.gather_among(&point, bandwidth, estimator, tests, &around, scratch)
         } else {
             let vector = |direction: [f32; 3]| DVec3::from(direction.map(f64::from));
             let weigh = |photon: &Photon<C>| {
                 self.sight.weight_of_flux(-vector(photon.direction.unpack()), vector(photon.normal.unpack()))
             };
-            map.gather_among(&point, bandwidth, estimator, tests, &Around { place: self, weigh }, scratch)
+            let around = Around { place: self, weigh, weighs: true };
+            map.gather_among(&point, bandwidth, estimator, tests, &around, scratch)
         }
     }
 }
@@ -50,9 +51,15 @@ impl<const C: usize> Place<'_, C> {
 struct Around<'p, const C: usize, W> {
     place: &'p Place<'p, C>,
     weigh: W,
+    /// False if the weight is always 1.
+    weighs: bool,
 }
 
 impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Around<'_, C, W> {
+    fn weighs(&self) -> bool {
+        self.weighs
+    }
+
     fn weigh(&self, photon: &Photon<C>) -> f64 {
         (self.weigh)(photon)
     }
@@ -74,7 +81,7 @@ impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Aroun
 }
 
 /// What [`World::surface_inside`] finds of a kernel, as a map asks for it: exact for flat faces, discs and spheres, and `None` where
-/// another curved surface is in the ball. Areas in square metres, first moments in m^3, second ones in m^4.
+/// another curved surface or very many faces are in the ball. Areas in square metres, first moments in m^3, second ones in m^4.
 pub fn surface_inside(
     world: &World,
     around: &Neighbourhood,
@@ -83,7 +90,7 @@ pub fn surface_inside(
 ) -> Option<Inside> {
     let inside = world.surface_inside(around, &Weight(kernel), stores)?;
     let second = inside.second.to_cols_array_2d();
-    Some(Inside { area: inside.area, first: inside.first.to_array(), second })
+    Some(Inside { area: inside.area, first: inside.first.to_array(), second, open: inside.open })
 }
 
 /// A kernel as the scene's geometry takes it.

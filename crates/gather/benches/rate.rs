@@ -7,8 +7,8 @@ use std::{f64::consts::PI, hint::black_box, time::Instant};
 use photonlab_gather::{
     AreaModel, Bandwidth, Estimator, GatherPoint, Inside, Kernel, PhotonMap, Scratch, Surroundings, Tests,
 };
-use photonlab_kdtree::{Neighbours, SplitRule};
-use photonlab_photometry::{Colour, PackedDirection, PathClass, Photon};
+use photonlab_kdtree::{KdTree, Neighbours, SplitRule};
+use photonlab_photometry::{PackedDirection, PathClass, Photon};
 
 const PHOTONS: usize = 1_000_000;
 const IN_BALL: usize = 50;
@@ -17,9 +17,13 @@ const IN_BALL: usize = 50;
 struct Edge;
 
 impl<P> Surroundings<P> for Edge {
+    fn weighs(&self) -> bool {
+        false
+    }
+
     fn inside(&self, _: f64, _: Kernel) -> Option<Inside> {
         let first = [2.0 / (3.0 * PI), 0.0, 0.0];
-        Some(Inside { area: 0.5, first, second: [[0.125, 0.0, 0.0], [0.0, 0.125, 0.0], [0.0; 3]] })
+        Some(Inside { area: 0.5, first, second: [[0.125, 0.0, 0.0], [0.0, 0.125, 0.0], [0.0; 3]], open: true })
     }
 }
 
@@ -48,8 +52,9 @@ fn main() {
         class: PathClass::Direct,
         segments: 1,
     };
-    let positions = (0..PHOTONS).map(|_| [even.next(), even.next(), 0.0]).collect();
-    let map = PhotonMap::<1>::build(positions, vec![photon; PHOTONS], SplitRule::Median).expect("finite photons");
+    let positions: Vec<[f32; 3]> = (0..PHOTONS).map(|_| [even.next(), even.next(), 0.0]).collect();
+    let map =
+        PhotonMap::<1>::build(positions.clone(), vec![photon; PHOTONS], SplitRule::Median).expect("finite photons");
     let points: Vec<GatherPoint> = (0..queries)
         .map(|_| GatherPoint { position: [even.next(), even.next(), 0.0], normal: [0.0, 0.0, 1.0] })
         .collect();
@@ -67,18 +72,15 @@ fn main() {
             map.gather(at, bandwidth, estimator, &tests, &mut scratch).irradiance[0]
         }
     };
-    let mut bare = |at: &GatherPoint, bandwidth| {
-        let mut flux = Colour::<1>::ZERO;
-        match bandwidth {
-            Bandwidth::Radius(radius) => {
-                map.tree().within(at.position, radius as f32, |index, _| flux += map.tree().payloads()[index].flux());
-            }
-            Bandwidth::Nearest { k, max_radius } => {
-                map.tree().nearest(at.position, k, max_radius as f32, &mut found);
-                found.iter().for_each(|one| flux += map.tree().payloads()[one.index].flux());
-            }
+    // The kd-tree bench's: the sum of payloads in the ball, or of the nearest.
+    let flux = vec![[1.0f32]; PHOTONS];
+    let bare_tree = KdTree::build(positions.clone(), flux, SplitRule::Median).expect("finite photons");
+    let mut bare = |at: &GatherPoint, bandwidth| match bandwidth {
+        Bandwidth::Radius(radius) => f64::from(bare_tree.sum_within(at.position, radius as f32)[0]),
+        Bandwidth::Nearest { k, max_radius } => {
+            bare_tree.nearest(at.position, k, max_radius as f32, &mut found);
+            f64::from(bare_tree.sum_of(&found)[0])
         }
-        flux[0]
     };
     for (name, bandwidth) in [("radius", Bandwidth::Radius(radius)), ("nearest", nearest)] {
         let mut best = [f64::INFINITY; 4];

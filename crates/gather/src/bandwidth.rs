@@ -39,6 +39,14 @@ impl AreaModel {
         matches!(self, AreaModel::Clipped | AreaModel::Linear)
     }
 
+    /// By what factor the bias grows with a radius `factor` times as large, in leading order, where the surface does not fill the disc.
+    pub(crate) fn growth_of_bias(self, factor: f64) -> f64 {
+        match self {
+            AreaModel::Clipped => factor,
+            AreaModel::Disc | AreaModel::Sphere | AreaModel::Linear => factor * factor,
+        }
+    }
+
     /// The area in square metres for a squared radius.
     pub fn area(self, radius_squared: f64) -> f64 {
         let disc = std::f64::consts::PI * radius_squared;

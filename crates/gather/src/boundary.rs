@@ -12,6 +12,8 @@ pub struct Inside {
     pub first: [f64; 3],
     /// The integral of the offset times itself.
     pub second: [[f64; 3]; 3],
+    /// True if nothing in the ball can hide a part of this surface from light.
+    pub open: bool,
 }
 
 /// The factor, linear in a photon's offset from the point, that makes its kernel one for the surface that is there: a
@@ -23,20 +25,30 @@ pub(crate) struct Correction {
     slope: [f64; 3],
 }
 
+/// Those for two balls around a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Corrections {
+    pub(crate) wide: Correction,
+    pub(crate) narrow: Correction,
+    /// True if nothing can hide a part of the surface in them.
+    pub(crate) open: bool,
+}
+
 impl Correction {
     const NONE: Self = Self { constant: 1.0, slope: [0.0; 3] };
 
-    /// Those for two radii, the larger one first; `None` if both discs are whole, where the plain estimate will do.
+    /// Those for two radii, the larger one first, whose ball holds all that the other's does; `None` if both discs are whole, where the plain estimate will do.
     pub(crate) fn pair<P>(
         estimator: Estimator,
         normal: [f32; 3],
         radii: [f64; 2],
         around: &impl Surroundings<P>,
-    ) -> Option<[Self; 2]> {
+    ) -> Option<Corrections> {
         let ask = |radius| around.inside(radius, estimator.kernel);
         let wide = if estimator.area.asks() { ask(radii[0]) } else { None }?;
-        let narrow = ask(radii[1]);
-        Some([Some(wide), narrow].map(|inside| inside.map_or(Self::NONE, |i| Self::new(estimator.area, normal, &i))))
+        let of = |inside: &Inside| Self::new(estimator.area, normal, inside);
+        let narrow = ask(radii[1]).map_or(Self::NONE, |narrow| of(&narrow));
+        Some(Corrections { wide: of(&wide), narrow, open: wide.open })
     }
 
     /// For a surface of which `inside` is in the ball.
@@ -68,6 +80,7 @@ impl Correction {
     }
 
     /// The factor at an offset in radii.
+    #[inline(always)]
     pub(crate) fn at(&self, offset: [f64; 3]) -> f64 {
         self.constant + dot(self.slope, offset)
     }
@@ -75,6 +88,11 @@ impl Correction {
 
 /// What a map must know of the surfaces around a point. It asks its caller, who has the geometry.
 pub trait Surroundings<P> {
+    /// False if every photon counts in full, whatever [`weigh`](Self::weigh) says.
+    fn weighs(&self) -> bool {
+        true
+    }
+
     /// How much a photon counts: what passes a coat.
     fn weigh(&self, _photon: &P) -> f64 {
         1.0
@@ -90,8 +108,13 @@ pub trait Surroundings<P> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenPlane;
 
-impl<P> Surroundings<P> for OpenPlane {}
+impl<P> Surroundings<P> for OpenPlane {
+    fn weighs(&self) -> bool {
+        false
+    }
+}
 
+#[inline(always)]
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

@@ -5,6 +5,7 @@
 //! caller's to judge: it knows the geometry.
 #![forbid(unsafe_code)]
 
+mod ball_sum;
 mod bandwidth;
 mod boundary;
 mod estimate;

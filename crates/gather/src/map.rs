@@ -1,11 +1,13 @@
 //! The photon map: photons in a tree, and the density estimates read from it.
 
-use std::f64::consts::PI;
-
 use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
 use photonlab_photometry::{Colour, Photon};
 
-use crate::{Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests, boundary::Correction};
+use crate::{
+    Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests,
+    ball_sum::{Accepted, BallSum},
+    boundary::{Correction, Corrections},
+};
 
 /// Cosine of the largest angle between normals that count as one surface.
 pub const SAME_SURFACE: f32 = 0.5;
@@ -100,62 +102,21 @@ impl<const C: usize> PhotonMap<C> {
         tests: &Tests,
         around: &impl Surroundings<Photon<C>>,
     ) -> Estimate<C> {
-        let radii = [CHECK * radius, radius];
-        if let Some(corrections) = Correction::pair(estimator, at.normal, radii, around) {
-            return self.within_clipped(at, radius, estimator.kernel, corrections, tests, around);
-        }
-        let inside = (radius * radius) as f32;
-        let (mut ball, mut ring, mut weighed, mut photons) = (Colour::ZERO, Colour::ZERO, Colour::ZERO, 0);
-        self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
-            let photon = &self.tree.payloads()[index];
-            if counts(photon, at, tests) {
-                let flux = photon.flux() * around.weigh(photon);
-                if distance_squared <= inside {
-                    photons += 1;
-                    ball += flux;
-                    weighed += flux * estimator.kernel.weight(f64::from(distance_squared / inside));
-                } else {
-                    ring += flux;
-                }
-            }
-        });
+        let corrections = Correction::pair(estimator, at.normal, [CHECK * radius, radius], around);
+        let accepted = Accepted { at, tests };
+        let mut sum = BallSum::new(&self.tree, accepted, around, (radius, estimator.kernel), corrections);
+        let (sums, photons) = (sum.sums(), sum.photons);
         let per_area = 1.0 / estimator.area.area(radius * radius);
-        let wider = (ball + ring) * (per_area / (CHECK * CHECK));
-        let bias_of_disc = (wider - ball * per_area) * (1.0 / (CHECK * CHECK - 1.0));
-        let bias = bias_of_disc * bias_over_disc(estimator.kernel);
-        Estimate { irradiance: weighed * per_area, bias, photons, radius }
-    }
-
-    /// The same where the surface does not fill the disc. The bias is what it would be if it grew with the radius squared.
-    fn within_clipped(
-        &self,
-        at: &GatherPoint,
-        radius: f64,
-        kernel: Kernel,
-        [of_wide, of_ball]: [Correction; 2],
-        tests: &Tests,
-        around: &impl Surroundings<Photon<C>>,
-    ) -> Estimate<C> {
-        let inside = (radius * radius) as f32;
-        let (mut ball, mut wide, mut photons) = (Colour::ZERO, Colour::ZERO, 0);
-        self.tree.within(at.position, (CHECK * radius) as f32, |index, distance_squared| {
-            let photon = &self.tree.payloads()[index];
-            if counts(photon, at, tests) {
-                let flux = photon.flux() * around.weigh(photon);
-                let offset = self.offset(index, at, radius);
-                let rho_squared = f64::from(distance_squared / inside);
-                if distance_squared <= inside {
-                    photons += 1;
-                    ball += flux * (kernel.weight(rho_squared) * of_ball.at(offset));
-                }
-                let in_wide = kernel.weight((rho_squared / (CHECK * CHECK)).min(1.0));
-                wide += flux * (in_wide * of_wide.at(offset.map(|x| x / CHECK)));
-            }
-        });
-        let per_area = 1.0 / (PI * radius * radius);
-        let irradiance = ball * per_area;
-        let bias = (wide * (per_area / (CHECK * CHECK)) - irradiance) * (1.0 / (CHECK * CHECK - 1.0));
-        Estimate { irradiance, bias, photons, radius }
+        let irradiance = sums.weighed * per_area;
+        let wide = sums.wide * (per_area / (CHECK * CHECK));
+        let Some(corrections) = corrections else {
+            let bias_of_disc = (wide - sums.disc * per_area) * (1.0 / (CHECK * CHECK - 1.0));
+            let bias = bias_of_disc * bias_over_disc(estimator.kernel);
+            return Estimate { irradiance, bias, photons, radius, remedied: false };
+        };
+        // What it would be if it grew with the radius, or with its square where a slope is taken out.
+        let bias = (wide - irradiance) * (1.0 / (estimator.area.growth_of_bias(CHECK) - 1.0));
+        Estimate { irradiance, bias, photons, radius, remedied: corrections.open }
     }
 
     /// A photon's offset from a point, in radii.
@@ -206,11 +167,16 @@ impl<const C: usize> PhotonMap<C> {
         let (radius, half, kernel) = (radius_squared.sqrt(), 0.5 * radius_squared, estimator.kernel);
         let per_area = 1.0 / estimator.area.area(radius_squared);
         let photons = found.len();
-        // The inner half of the area has half the bias, so twice the difference is the whole.
-        let bias = |all: Colour<C>, inner: Colour<C>| (all * per_area - inner * (2.0 * per_area)) * 2.0;
+        // The inner half of the area has half the bias, so twice the difference is the whole; less so where the bias grows with the
+        // radius.
+        let bias = |all: Colour<C>, inner: Colour<C>, growth: f64| {
+            (all * per_area - inner * (2.0 * per_area)) * (growth / (growth - 1.0))
+        };
         let (mut all, mut inner, mut weighed) = (Colour::ZERO, Colour::ZERO, Colour::ZERO);
         let radii = [radius, half.sqrt()];
-        if let Some([of_ball, of_inner]) = Correction::pair(estimator, at.normal, radii, around) {
+        if let Some(corrections) = Correction::pair(estimator, at.normal, radii, around) {
+            let Corrections { wide: of_ball, narrow: of_inner, open } = corrections;
+            let growth = estimator.area.growth_of_bias(2f64.sqrt());
             for neighbour in found.iter() {
                 let distance_squared = f64::from(neighbour.distance_squared);
                 let flux = flux(neighbour.index);
@@ -223,7 +189,8 @@ impl<const C: usize> PhotonMap<C> {
                             * of_inner.at(self.offset(neighbour.index, at, radii[1])));
                 }
             }
-            return Estimate { irradiance: all * per_area, bias: bias(all, inner), photons, radius };
+            let bias = bias(all, inner, growth);
+            return Estimate { irradiance: all * per_area, bias, photons, radius, remedied: open };
         }
         for neighbour in found.iter() {
             let flux = flux(neighbour.index);
@@ -234,7 +201,8 @@ impl<const C: usize> PhotonMap<C> {
                 inner += flux;
             }
         }
-        Estimate { irradiance: weighed * per_area, bias: bias(all, inner) * bias_over_disc(kernel), photons, radius }
+        let bias = bias(all, inner, 2.0) * bias_over_disc(kernel);
+        Estimate { irradiance: weighed * per_area, bias, photons, radius, remedied: false }
     }
 
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
@@ -272,8 +240,5 @@ fn bias_over_disc(kernel: Kernel) -> f64 {
 }
 
 fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -> bool {
-    let dot = |a: [f32; 3], b: [f32; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    (!tests.normal || dot(photon.normal.unpack(), at.normal) >= SAME_SURFACE)
-        && (!tests.side || dot(photon.direction.unpack(), at.normal) < 0.0)
-        && tests.max_segments.is_none_or(|max| u32::from(photon.segments) <= max)
+    Accepted { at, tests }.has(photon)
 }

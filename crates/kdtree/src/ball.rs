@@ -19,10 +19,27 @@ trait Visitor {
     fn finish<L: Lanes>(&mut self, state: Self::State<L>);
 }
 
-/// Passes blocks on to a closure.
+/// Is shown blocks of sixteen points that lie in a ball.
+///
+/// A closure does for [`KdTree::within_blocks`]; a type of one's own can mark its `visit` `#[inline(always)]`, so that it is compiled
+/// with the vector instructions of the tree.
+pub trait VisitBlock {
+    /// The point of tree index `first + i` is in the ball, at the squared distance of lane i, where bit i of `mask` is set: at least
+    /// one is.
+    fn visit(&mut self, first: usize, mask: u16, distances: &[f32; BLOCK]);
+}
+
+impl<V: FnMut(usize, u16, &[f32; BLOCK])> VisitBlock for V {
+    #[inline(always)]
+    fn visit(&mut self, first: usize, mask: u16, distances: &[f32; BLOCK]) {
+        self(first, mask, distances);
+    }
+}
+
+/// Passes blocks on.
 struct Each<V>(V);
 
-impl<V: FnMut(usize, u16, &[f32; BLOCK])> Visitor for Each<V> {
+impl<V: VisitBlock> Visitor for Each<V> {
     type State<L: Lanes> = ();
 
     #[inline(always)]
@@ -31,7 +48,7 @@ impl<V: FnMut(usize, u16, &[f32; BLOCK])> Visitor for Each<V> {
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, _: &mut (), first: usize, mask: u16, distances: L::Floats) {
         if mask != 0 {
-            (self.0)(first, mask, &L::store(distances));
+            self.0.visit(first, mask, &L::store(distances));
         }
     }
 
@@ -186,10 +203,14 @@ impl<P: Copy + Send + Sync> KdTree<P> {
     /// points in the ball, by rising `first`.
     ///
     /// The point of tree index `first + i` is in the ball where bit i of the mask is set; the distances of other
-    /// lanes mean nothing. `visit` is compiled for the vector instructions of the tree. A block can be shown more
-    /// than once where leaves share it, with other bits each time.
+    /// lanes mean nothing. A block can be shown more than once where leaves share it, with other bits each time.
     pub fn within_blocks(&self, query: [f32; 3], radius: f32, visit: impl FnMut(usize, u16, &[f32; BLOCK])) {
-        self.walk_ball(query, radius, &mut Each(visit), &mut Unmetered);
+        self.visit_within(query, radius, visit);
+    }
+
+    /// [`within_blocks`](Self::within_blocks) for a visitor that is a type of its own.
+    pub fn visit_within(&self, query: [f32; 3], radius: f32, visitor: impl VisitBlock) {
+        self.walk_ball(query, radius, &mut Each(visitor), &mut Unmetered);
     }
 
     fn walk_ball<V: Visitor>(&self, query: [f32; 3], radius: f32, visitor: &mut V, meter: &mut impl Meter) {

@@ -1,7 +1,7 @@
 //! Sixteen points as they are stored.
 
-/// Points in a block: the `f32` lanes of the widest vector register.
-pub(crate) const BLOCK: usize = 16;
+/// Points in a block, the `f32` lanes of the widest vector register: tree indices from a multiple of it to the next.
+pub const BLOCK: usize = 16;
 
 /// Sixteen points, axis by axis; lanes beyond the last point of a tree are NaN, which is within no reach.
 #[derive(Clone, Copy, Debug)]

@@ -56,6 +56,8 @@ mod tree;
 mod visit_cost;
 mod visits;
 
+pub use ball::VisitBlock;
+pub use block::BLOCK;
 pub use distance::distance_squared;
 pub use error::BuildError;
 pub use lanes::Instructions;

@@ -98,6 +98,16 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         self.blocks[i / BLOCK].point(i % BLOCK)
     }
 
+    /// The coordinates, axis by axis, of the block of points whose first has tree index `first`, a multiple of [`BLOCK`]; NaN beyond the
+    /// last point.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such block.
+    pub fn block_points(&self, first: usize) -> &[[f32; BLOCK]; 3] {
+        &self.blocks[first / BLOCK].axes
+    }
+
     /// The payloads in tree order. Where a point stood in the order given to `build` is for a payload to say.
     pub fn payloads(&self) -> &[P] {
         &self.payload

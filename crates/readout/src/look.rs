@@ -202,7 +202,7 @@ impl<const C: usize> Look<'_, C> {
             Bandwidth::Nearest { .. } => found.radius,
             Bandwidth::Radius(radius) => CHECK * radius,
         };
-        let astray = self.world.ball_leaves_surface(at, reach);
+        let astray = !found.remedied && self.world.ball_leaves_surface(at, reach);
         let unresolved = found.photons > 0 && astray;
         let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
         let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);

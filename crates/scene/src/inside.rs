@@ -5,7 +5,15 @@ use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
 use glam::{DMat3, DVec2, DVec3};
 
-use crate::{ball::Ball, disk::Disk, parallelogram::Parallelogram, primitive::Surface, tube::Tube, world::World};
+use crate::{
+    ball::Ball,
+    disk::Disk,
+    hidden::{Around, Face},
+    parallelogram::Parallelogram,
+    primitive::Surface,
+    tube::Tube,
+    world::World,
+};
 
 /// Nodes and weights of the Gauss-Legendre rule with five points on [-1, 1]: exact up to degree nine.
 const GAUSS: [(f64, f64); 5] = [
@@ -57,10 +65,15 @@ pub struct Inside {
     pub first: DVec3,
     /// The integral of the offset times itself.
     pub second: DMat3,
+    /// True if nothing in the ball can hide a part of this surface.
+    pub open: bool,
 }
 
+/// More surfaces than this in a ball are not looked at: on a dense mesh every estimate would take longer than all the rest.
+const MOST_SURFACES: usize = 64;
+
 impl Inside {
-    const NOTHING: Self = Self { area: 0.0, first: DVec3::ZERO, second: DMat3::ZERO };
+    const NOTHING: Self = Self { area: 0.0, first: DVec3::ZERO, second: DMat3::ZERO, open: true };
 
     fn add(&mut self, other: &Inside) {
         self.area += other.area;
@@ -73,9 +86,9 @@ impl World {
     /// Integrals of a weight over all surface inside a ball of which a side passes the test of normals and `counts`, as
     /// it does for a primitive's number and whether its front side is meant. Exact for flat faces and circles, whether
     /// their planes go through the centre or not, and for the sphere on which the centre lies; within 1e-4 discs for
-    /// the cylinder on which it lies, and for weights that are no polynomials of `t`. Nothing hides anything: surface
-    /// under another body counts. `None` if a curved surface other than these is in the ball, or a face that lies in the centre's
-    /// own: which of the two light meets cannot be told.
+    /// the cylinder on which it lies, and for weights that are no polynomials of `t`. Surface under another body counts too, but is
+    /// not [`Inside::open`]. `None` if a curved surface other than these is in the ball, or a face that lies in the centre's
+    /// own, since which of the two light meets cannot be told, or more than 64 surfaces.
     pub fn surface_inside(
         &self,
         around: &Neighbourhood,
@@ -83,13 +96,17 @@ impl World {
         counts: impl Fn(u32, bool) -> bool,
     ) -> Option<Inside> {
         let mut sum = Inside::NOTHING;
+        let mut faces = Vec::new();
+        let (mut seen, mut bent) = (0, false);
         let unknown = self.any_in_ball(around.position, around.radius, |index| {
             let surface = &self.primitives[index as usize].surface;
             let own = index == around.primitive;
+            seen += 1;
             let one = match surface {
                 Surface::Ball(ball) if own => Some(on_ball(ball, around, weight)),
                 Surface::Tube(tube) if own => Some(on_tube(tube, around, weight)),
                 Surface::Ball(_) | Surface::Tube(_) | Surface::Dish(_) => {
+                    bent = true;
                     return counts(index, true) || counts(index, false);
                 }
                 Surface::Parallelogram(_) | Surface::Triangle(_) | Surface::Disk(_) => {
@@ -97,18 +114,28 @@ impl World {
                     let cosine = normal.dot(around.normal);
                     let front = cosine >= around.least_cosine && counts(index, true);
                     let back = -cosine >= around.least_cosine && counts(index, false);
-                    if !own && (front || back) && self.lies_in_own(surface, around) {
+                    let counts = own || front || back;
+                    let corners = outline(surface).unwrap_or_default();
+                    faces.push(Face { corners, normal, counts });
+                    if !own && self.lies_in_own(surface, around) {
                         None
-                    } else if own || front || back {
+                    } else if counts {
                         on_flat(surface, normal, around, weight)
                     } else {
                         Some(Inside::NOTHING)
                     }
                 }
             };
-            one.inspect(|one| sum.add(one)).is_none()
+            seen > MOST_SURFACES || one.inspect(|one| sum.add(one)).is_none()
         });
-        (!unknown).then_some(sum)
+        if unknown {
+            return None;
+        }
+        // On a curved surface nothing else may be near.
+        let tolerance = SAME_PLANE * around.radius;
+        let plane = Around { centre: around.position, normal: around.normal, radius: around.radius, tolerance };
+        sum.open = !bent && (seen == 1 || faces.len() == seen && plane.lies_open(&faces));
+        Some(sum)
     }
 
     /// True if a flat surface overlaps the one on which the centre lies, in one plane: no side of either parts them.
@@ -220,7 +247,7 @@ impl<'w, W: RadialWeight> Boundary<'w, W> {
         let dyad = |p: DVec3, q: DVec3| DMat3::from_cols(p * q.x, p * q.y, p * q.z);
         let plane = dyad(a, a) * xx + dyad(b, b) * yy + (dyad(a, b) + dyad(b, a)) * xy;
         let second = dyad(foot, foot) * self.area + dyad(foot, along) + dyad(along, foot) + plane;
-        Inside { area: self.area / PI, first: (foot * self.area + along) / PI, second: second * (1.0 / PI) }
+        Inside { area: self.area / PI, first: (foot * self.area + along) / PI, second: second * (1.0 / PI), open: true }
     }
 }
 
@@ -315,7 +342,7 @@ fn on_ball(ball: &Ball, around: &Neighbourhood, weight: &impl RadialWeight) -> I
     quadrature(0.0, reach, |t, width| across += width * weight.weight(t) * t * (1.0 - 0.25 * curvature2 * t));
     let n = around.normal;
     let tangent = DMat3::IDENTITY - DMat3::from_cols(n * n.x, n * n.y, n * n.z);
-    Inside { area: weight.mass(reach), first: DVec3::ZERO, second: tangent * (0.5 * across) }
+    Inside { area: weight.mass(reach), first: DVec3::ZERO, second: tangent * (0.5 * across), open: true }
 }
 
 /// Of a cylinder's wall, strip by strip along the axis; strips are told by the chord across, the sine of an angle.
@@ -347,7 +374,7 @@ fn on_tube(tube: &Tube, around: &Neighbourhood, weight: &impl RadialWeight) -> I
         }
     }
     let dyad = |p: DVec3| DMat3::from_cols(p * p.x, p * p.y, p * p.z);
-    Inside { area: sums[0], first: axis * sums[1], second: dyad(axis) * sums[2] + dyad(across) * sums[3] }
+    Inside { area: sums[0], first: axis * sums[1], second: dyad(axis) * sums[2] + dyad(across) * sums[3], open: true }
 }
 
 /// Offers the rule's points of an interval with their widths.
@@ -402,7 +429,12 @@ mod tests {
             let x = (point - around.position) / around.radius;
             if x.length_squared() <= 1.0 && surface.normal(point).dot(around.normal) >= around.least_cosine {
                 let w = each * weight.weight(x.length_squared());
-                sum.add(&Inside { area: w, first: w * x, second: DMat3::from_cols(x * x.x, x * x.y, x * x.z) * w });
+                sum.add(&Inside {
+                    area: w,
+                    first: w * x,
+                    second: DMat3::from_cols(x * x.x, x * x.y, x * x.z) * w,
+                    open: true,
+                });
             }
         }
         sum

@@ -14,6 +14,7 @@ mod dish;
 mod disk;
 mod emitter;
 mod frame;
+mod hidden;
 mod index;
 mod inside;
 pub mod luminaire;

@@ -1,6 +1,5 @@
 //! `coverage`: how often error bars hold, over every scene with a known answer.
 
-use photonlab_gather::Estimator;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Group, Point, Record, Row, Series, SeriesKind, Verdict, student_t_quantile,
 };
@@ -13,6 +12,7 @@ use serde::Deserialize;
 use crate::{
     by_channels,
     certificate::{doubt, nothing, objections},
+    chosen::DEFAULT_ESTIMATOR,
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
@@ -131,7 +131,7 @@ fn read<const C: usize>(
     let settings = |seed: u64| Settings {
         method,
         direct: Direct::Sampled,
-        estimator: Estimator::default(),
+        estimator: DEFAULT_ESTIMATOR,
         gather_rays: 1,
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

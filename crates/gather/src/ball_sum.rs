@@ -1,0 +1,212 @@
+//! Sums over the photons in a ball and in a wider one, a block of sixteen at a time.
+
+use photonlab_kdtree::{BLOCK, KdTree, VisitBlock};
+use photonlab_photometry::{Colour, PackedDirection, Photon};
+
+use crate::{CHECK, GatherPoint, Kernel, SAME_SURFACE, Surroundings, Tests, boundary::Corrections};
+
+/// Which photons count at a point.
+#[derive(Clone, Copy)]
+pub(crate) struct Accepted<'a> {
+    pub(crate) at: &'a GatherPoint,
+    pub(crate) tests: &'a Tests,
+}
+
+impl Accepted<'_> {
+    /// Whether a photon counts.
+    #[inline(always)]
+    pub(crate) fn has<const C: usize>(&self, photon: &Photon<C>) -> bool {
+        self.is_here(photon.normal.along(), photon.direction.along()) && self.is_short(photon)
+    }
+
+    /// Whether it lies on the point's surface and came to the point's side of it.
+    #[inline(always)]
+    fn is_here(&self, normal: [f32; 3], direction: [f32; 3]) -> bool {
+        let dot = |a: [f32; 3]| a[0] * self.at.normal[0] + a[1] * self.at.normal[1] + a[2] * self.at.normal[2];
+        let cosine = dot(normal);
+        let length_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+        let same = (cosine > 0.0) & (cosine * cosine >= SAME_SURFACE * SAME_SURFACE * length_squared);
+        let arrives = dot(direction) < 0.0;
+        (same | !self.tests.normal) & (arrives | !self.tests.side)
+    }
+
+    #[inline(always)]
+    fn is_short<const C: usize>(&self, photon: &Photon<C>) -> bool {
+        self.tests.max_segments.is_none_or(|max| u32::from(photon.segments) <= max)
+    }
+
+    /// The photons of a block that count, as bits.
+    #[inline(always)]
+    fn of_block<const C: usize>(&self, photons: &[Photon<C>; BLOCK]) -> u16 {
+        // Copied first: of records in a row no vectors are made.
+        let (mut normals, mut directions) = ([0; BLOCK], [0; BLOCK]);
+        for lane in 0..BLOCK {
+            normals[lane] = photons[lane].normal.to_bits();
+            directions[lane] = photons[lane].direction.to_bits();
+        }
+        let mut bits = [0u32; BLOCK];
+        for lane in 0..BLOCK {
+            let [normal, direction] = [normals[lane], directions[lane]].map(PackedDirection::from_bits);
+            bits[lane] = u32::from(self.is_here(normal.along(), direction.along())) << lane;
+        }
+        let here = bits.iter().fold(0, |all, bit| all | bit) as u16;
+        let long = |lane: &usize| !self.is_short(&photons[*lane]);
+        match self.tests.max_segments {
+            None => here,
+            Some(_) => (0..BLOCK).filter(long).fold(here, |all, lane| all & !(1 << lane)),
+        }
+    }
+}
+
+/// What is summed over the photons that count in a ball of [`CHECK`] times the radius.
+pub(crate) struct BallSum<'a, const C: usize, S> {
+    pub(crate) tree: &'a KdTree<Photon<C>>,
+    pub(crate) accepted: Accepted<'a>,
+    pub(crate) around: &'a S,
+    pub(crate) radius: f64,
+    pub(crate) kernel: Kernel,
+    /// `None` where the surface fills the discs.
+    pub(crate) corrections: Option<Corrections>,
+    /// Photons in the ball itself.
+    pub(crate) photons: usize,
+    weighed: Lanes<C>,
+    disc: Lanes<C>,
+    wide: Lanes<C>,
+}
+
+/// The sums of flux.
+pub(crate) struct Sums<const C: usize> {
+    /// In the ball, by kernel and correction.
+    pub(crate) weighed: Colour<C>,
+    /// In the ball, as it is.
+    pub(crate) disc: Colour<C>,
+    /// In the wide ball: as it is without corrections, by kernel and correction with them.
+    pub(crate) wide: Colour<C>,
+}
+
+impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
+    pub(crate) fn new(
+        tree: &'a KdTree<Photon<C>>,
+        accepted: Accepted<'a>,
+        around: &'a S,
+        (radius, kernel): (f64, Kernel),
+        corrections: Option<Corrections>,
+    ) -> Self {
+        let none = [Lanes::ZERO; 3];
+        let [weighed, disc, wide] = none;
+        Self { tree, accepted, around, radius, kernel, corrections, photons: 0, weighed, disc, wide }
+    }
+
+    /// Walks the tree.
+    pub(crate) fn sums(&mut self) -> Sums<C> {
+        let (tree, position) = (self.tree, self.accepted.at.position);
+        tree.visit_within(position, (CHECK * self.radius) as f32, &mut *self);
+        let (disc, wide) = (self.disc.total(), self.wide.total());
+        let plain = self.kernel == Kernel::Disc && self.corrections.is_none();
+        Sums { weighed: if plain { disc } else { self.weighed.total() }, disc, wide }
+    }
+
+    /// How much each photon counts: in the kernel's sum, and in the wide one.
+    #[inline(always)]
+    fn corrected(&self, corrections: &Corrections, first: usize, shares: &[f64; BLOCK]) -> [[f64; BLOCK]; 2] {
+        let axes = self.tree.block_points(first);
+        let mut offsets = [[0.0; BLOCK]; 3];
+        let mut wide_shares = [0.0; BLOCK];
+        let per_radius = 1.0 / self.radius;
+        for lane in 0..BLOCK {
+            for axis in 0..3 {
+                offsets[axis][lane] = f64::from(axes[axis][lane] - self.accepted.at.position[axis]) * per_radius;
+            }
+            wide_shares[lane] = shares[lane] * (1.0 / (CHECK * CHECK));
+        }
+        let (mut narrow, mut wide) = (self.kernel.weights(shares), self.kernel.weights(&wide_shares));
+        for lane in 0..BLOCK {
+            let offset = [offsets[0][lane], offsets[1][lane], offsets[2][lane]];
+            narrow[lane] *= corrections.narrow.at(offset);
+            wide[lane] *= corrections.wide.at(offset.map(|x| x * (1.0 / CHECK)));
+        }
+        [narrow, wide]
+    }
+}
+
+impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_, C, S> {
+    #[inline(always)]
+    fn visit(&mut self, first: usize, mask: u16, distances: &[f32; BLOCK]) {
+        let payloads = &self.tree.payloads()[first..];
+        let padded;
+        let photons = match payloads.first_chunk() {
+            Some(photons) => photons,
+            None => {
+                padded = std::array::from_fn(|lane| payloads[lane.min(payloads.len() - 1)]);
+                &padded
+            }
+        };
+        let counted = self.accepted.of_block(photons) & mask;
+        if counted == 0 {
+            return;
+        }
+        let limit = (self.radius * self.radius) as f32;
+        let (mut shares, mut near, mut all) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
+        let mut inside = [0u32; BLOCK];
+        for lane in 0..BLOCK {
+            let bit = u32::from(counted) & 1 << lane;
+            inside[lane] = if distances[lane] <= limit { bit } else { 0 };
+            shares[lane] = f64::from(distances[lane] / limit);
+            all[lane] = if bit != 0 { 1.0 } else { 0.0 };
+            near[lane] = if inside[lane] != 0 { 1.0 } else { 0.0 };
+        }
+        self.photons += inside.iter().fold(0, |all, bit| all | bit).count_ones() as usize;
+        if self.around.weighs() {
+            let mut left = counted;
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                let weight = self.around.weigh(&photons[lane]);
+                (all[lane], near[lane]) = (all[lane] * weight, near[lane] * weight);
+                left &= left - 1;
+            }
+        }
+        if let Some(corrections) = self.corrections {
+            let [narrow, wide] = self.corrected(&corrections, first, &shares);
+            self.weighed.add(photons, &product(&near, &narrow));
+            self.wide.add(photons, &product(&all, &wide));
+            return;
+        }
+        self.disc.add(photons, &near);
+        self.wide.add(photons, &all);
+        if self.kernel != Kernel::Disc {
+            self.weighed.add(photons, &product(&near, &self.kernel.weights(&shares)));
+        }
+    }
+}
+
+/// Lane by lane; zero where the first is, whatever the second: lanes without a point have no place.
+#[inline(always)]
+fn product(a: &[f64; BLOCK], b: &[f64; BLOCK]) -> [f64; BLOCK] {
+    let mut product = [0.0; BLOCK];
+    for lane in 0..BLOCK {
+        product[lane] = if a[lane] != 0.0 { a[lane] * b[lane] } else { 0.0 };
+    }
+    product
+}
+
+/// Sums of flux, in sixteen lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct Lanes<const C: usize>([[f64; BLOCK]; C]);
+
+impl<const C: usize> Lanes<C> {
+    const ZERO: Self = Self([[0.0; BLOCK]; C]);
+
+    /// Adds the flux of each photon times its factor.
+    #[inline(always)]
+    fn add(&mut self, photons: &[Photon<C>; BLOCK], factors: &[f64; BLOCK]) {
+        for channel in 0..C {
+            for lane in 0..BLOCK {
+                self.0[channel][lane] += f64::from(photons[lane].flux[channel]) * factors[lane];
+            }
+        }
+    }
+
+    fn total(&self) -> Colour<C> {
+        Colour(self.0.map(|lanes| lanes.iter().sum()))
+    }
+}
