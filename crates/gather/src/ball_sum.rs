@@ -27,7 +27,9 @@ impl Accepted<'_> {
         let length_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
         let same = (cosine > 0.0) & (cosine * cosine >= SAME_SURFACE * SAME_SURFACE * length_squared);
         let arrives = dot(direction) < 0.0;
-        (same | !self.tests.normal) & (arrives | !self.tests.side)
+        let lies_here = same | !self.tests.normal;
+        let came_here = arrives | !self.tests.side;
+        lies_here & came_here
     }
 
     #[inline(always)]

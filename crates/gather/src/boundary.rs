@@ -25,13 +25,17 @@ pub(crate) struct Correction {
     slope: [f64; 3],
 }
 
+/// The area in a ball must grow at least as this power of the disc's: it is 1 beside an edge or in a corner and 1/2 in a narrow strip. A
+/// face that both balls hold whole looks the same to both, however uneven its light.
+const LEAST_GROWTH: f64 = 0.4;
+
 /// Those for two balls around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Corrections {
     pub(crate) wide: Correction,
     pub(crate) narrow: Correction,
-    /// True if nothing can hide a part of the surface in them.
-    pub(crate) open: bool,
+    /// True if nothing can hide a part of the surface in them, and the wide one holds enough more of it to tell a bias.
+    pub(crate) tells: bool,
 }
 
 impl Correction {
@@ -47,8 +51,12 @@ impl Correction {
         let ask = |radius| around.inside(radius, estimator.kernel);
         let wide = if estimator.area.asks() { ask(radii[0]) } else { None }?;
         let of = |inside: &Inside| Self::new(estimator.area, normal, inside);
-        let narrow = ask(radii[1]).map_or(Self::NONE, |narrow| of(&narrow));
-        Some(Corrections { wide: of(&wide), narrow, open: wide.open })
+        let narrow = ask(radii[1]);
+        // Areas in discs of each ball's own.
+        let discs = (radii[0] / radii[1]).powi(2);
+        let growth = discs * wide.area / narrow.map_or(1.0, |narrow| narrow.area);
+        let narrow = narrow.map_or(Self::NONE, |narrow| of(&narrow));
+        Some(Corrections { wide: of(&wide), narrow, tells: wide.open && growth >= discs.powf(LEAST_GROWTH) })
     }
 
     /// For a surface of which `inside` is in the ball.

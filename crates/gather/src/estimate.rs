@@ -17,8 +17,8 @@ pub struct Estimate<const C: usize> {
     pub photons: usize,
     /// Radius of the ball, metres.
     pub radius: f64,
-    /// True if the surface in the balls was asked for, was not all of their discs, and lies open to light: the estimate needs no
-    /// other remedy for the edge that it is near.
+    /// True if the surface in the balls was asked for, was not all of their discs, lies open to light, and is enough more in the larger
+    /// ball to tell the bias: the estimate needs no other remedy for the edge that it is near.
     pub remedied: bool,
 }
 

@@ -116,7 +116,7 @@ impl<const C: usize> PhotonMap<C> {
         };
         // What it would be if it grew with the radius, or with its square where a slope is taken out.
         let bias = (wide - irradiance) * (1.0 / (estimator.area.growth_of_bias(CHECK) - 1.0));
-        Estimate { irradiance, bias, photons, radius, remedied: corrections.open }
+        Estimate { irradiance, bias, photons, radius, remedied: corrections.tells }
     }
 
     /// A photon's offset from a point, in radii.
@@ -175,7 +175,7 @@ impl<const C: usize> PhotonMap<C> {
         let (mut all, mut inner, mut weighed) = (Colour::ZERO, Colour::ZERO, Colour::ZERO);
         let radii = [radius, half.sqrt()];
         if let Some(corrections) = Correction::pair(estimator, at.normal, radii, around) {
-            let Corrections { wide: of_ball, narrow: of_inner, open } = corrections;
+            let Corrections { wide: of_ball, narrow: of_inner, tells } = corrections;
             let growth = estimator.area.growth_of_bias(2f64.sqrt());
             for neighbour in found.iter() {
                 let distance_squared = f64::from(neighbour.distance_squared);
@@ -190,7 +190,7 @@ impl<const C: usize> PhotonMap<C> {
                 }
             }
             let bias = bias(all, inner, growth);
-            return Estimate { irradiance: all * per_area, bias, photons, radius, remedied: open };
+            return Estimate { irradiance: all * per_area, bias, photons, radius, remedied: tells };
         }
         for neighbour in found.iter() {
             let flux = flux(neighbour.index);

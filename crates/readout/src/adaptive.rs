@@ -5,6 +5,22 @@ use photonlab_final_gather::Light;
 /// A radius grows or shrinks by at most this factor from one pass to the next.
 const LARGEST_STEP: f64 = 3.0;
 
+/// The variance of a pass's bias over that of its value: the bias is a third of the difference between a ball and one of four times its
+/// area (see [`photonlab_gather::CHECK`]), of which the smaller holds a quarter.
+pub(crate) const NOISE_OF_BIAS: f64 = 1.0 / 12.0;
+
+/// So many passes of its own count as much to a cell as what all cells have shown before the first.
+const PASSES_OF_OTHERS: f64 = 2.0;
+
+/// What all cells have shown: where each begins, and what it believes until it knows better.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Common {
+    /// Metres.
+    pub(crate) radius: f64,
+    /// Mean over the cells of the squared bias over the radius to the fourth.
+    pub(crate) bend_squared: f64,
+}
+
 /// One cell's radius and what it rests on.
 ///
 /// Where the irradiance is smooth the bias of a density estimate is `b r^2` and its variance `v / r^2`; the mean of `n` passes
@@ -13,8 +29,8 @@ const LARGEST_STEP: f64 = 3.0;
 /// second ball). A pass's radius depends on the photons of earlier passes alone, so that no pass is read with a radius
 /// that its own photons' noise has chosen: choosing the ball that looks best favours bright ones.
 ///
-/// What noise there is in `b` makes the radius smaller, not larger; in flat light, where there is nothing but noise, the
-/// radius grows by a third from pass to pass, and with it the certainty about `b`.
+/// The square of a noisy `b` is too large by the variance of its noise, which is taken off; and what all cells have shown stands in
+/// for what a cell does not know yet (as in empirical Bayes estimation), so that no radius is worse than the one for all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CellRadius {
     /// Metres; `None` before the first pass.
@@ -34,7 +50,14 @@ impl CellRadius {
     /// Takes in a pass that was read with `radius`, the last of `passes` so far: as they become more, their mean has less noise
     /// and deserves a smaller radius, so that noise and bias both go to zero. How many there will be is not asked, since a
     /// clock may decide that.
-    pub(crate) fn learn<const C: usize>(&mut self, mean: &Light<C>, radius: f64, passes: u64, largest: f64) {
+    pub(crate) fn learn<const C: usize>(
+        &mut self,
+        mean: &Light<C>,
+        radius: f64,
+        passes: u64,
+        common: &Common,
+        largest: f64,
+    ) {
         let next = if mean.noise > 0.0 {
             // The variance of a pass's b is proportional to v / r^6.
             let weight = radius.powi(6);
@@ -43,7 +66,10 @@ impl CellRadius {
             self.bend += weight * bias / (radius * radius);
             self.noise += weight * mean.noise * radius * radius;
             let (b, v) = (self.bend / self.weight, self.noise / self.weight);
-            (v / (2.0 * passes as f64 * b * b)).powf(1.0 / 6.0)
+            let own = (b * b - NOISE_OF_BIAS * v / self.weight).max(0.0);
+            let of_others = PASSES_OF_OTHERS * common.radius.powi(6);
+            let b_squared = (self.weight * own + of_others * common.bend_squared) / (self.weight + of_others);
+            (v / (2.0 * passes as f64 * b_squared)).powf(1.0 / 6.0)
         } else {
             // Nothing was found.
             f64::INFINITY
@@ -69,7 +95,7 @@ mod tests {
         let mut cell = CellRadius::default();
         for _ in 0..30 {
             let r = cell.get(0.01);
-            cell.learn(&found(b * r * r, v / (r * r)), r, passes, 10.0);
+            cell.learn(&found(b * r * r, v / (r * r)), r, passes, &Common::default(), 10.0);
         }
         let r = cell.get(0.01);
         assert!(error(r) < error(1.01 * r) && error(r) < error(0.99 * r), "{r}");
@@ -78,9 +104,9 @@ mod tests {
     #[test]
     fn it_grows_where_nothing_is_found_and_stays_in_the_scene() {
         let mut cell = CellRadius::default();
-        cell.learn(&found(0.0, 0.0), 0.1, 10, 0.7);
+        cell.learn(&found(0.0, 0.0), 0.1, 10, &Common::default(), 0.7);
         assert_eq!(cell.get(1.0), 0.1 * LARGEST_STEP);
-        cell.learn(&found(0.0, 1.0), 0.3, 10, 0.7);
+        cell.learn(&found(0.0, 1.0), 0.3, 10, &Common::default(), 0.7);
         assert_eq!(cell.get(1.0), 0.7);
     }
 }

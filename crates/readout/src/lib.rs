@@ -23,6 +23,7 @@ mod probe;
 mod run;
 mod schedule;
 mod session;
+mod tuned;
 
 pub use cells::{Cell, Target};
 pub use checked_file::partial_name;

@@ -15,9 +15,6 @@ use crate::{Cell, Method, ReadError, Settings, caustic_cells::CausticCells};
 const FINAL_GATHER_COUNT: usize = 16;
 /// The same where the map is read at the point itself.
 const DIRECT_VIEW_COUNT: usize = 50;
-/// The same where each cell goes on to find a radius of its own: the bias of a wide ball is seen better than that of a
-/// narrow one.
-const FIRST_COUNT: usize = 200;
 /// The same in the caustic map.
 const CAUSTIC_COUNT: usize = 32;
 /// Photons that a cylinder around a gather ray holds on average along a free path: fewer still, for the bias and the cost of a
@@ -87,7 +84,7 @@ pub(crate) struct PassMaps<const C: usize> {
 /// Radii of the first pass, from which those of all others follow.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Radii {
-    surface: Option<f64>,
+    pub(crate) surface: Option<f64>,
     caustic: Option<f64>,
     volume: Option<f64>,
     volume_caustic: Option<f64>,
@@ -135,8 +132,7 @@ impl<const C: usize> PassMaps<C> {
         };
         let count = match settings.method {
             Method::FinalGather { .. } => FINAL_GATHER_COUNT,
-            Method::Adaptive => FIRST_COUNT,
-            Method::Nearest { .. } | Method::Radius { .. } | Method::Path | Method::Bins => DIRECT_VIEW_COUNT,
+            _ => DIRECT_VIEW_COUNT,
         };
         let shrink = f64::from(pass + 1).powf(-SHRINK);
         let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {

@@ -29,7 +29,7 @@ impl<const C: usize> Session<'_, C> {
         schedule: &Schedule,
         source: &Source<'_, C>,
     ) -> Result<(), ReadError> {
-        let number = run.passes + run.pilots;
+        let number = run.passes;
         if self.settings.method == Method::Bins {
             return self.count(run, cells, schedule);
         }
@@ -48,7 +48,15 @@ impl<const C: usize> Session<'_, C> {
             shares: &shares,
             caustics: &maps.in_cells,
         };
-        let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(maps.surface_radius)).collect();
+        let surface_radius = match (self.settings.method, &maps.surface) {
+            (Method::Radius { radius: None } | Method::Adaptive, Some(_)) if number == 0 => {
+                run.common = self.tuned_radius(&look, cells, maps.surface_radius);
+                run.radius += run.common.radius - maps.surface_radius;
+                *run.radii.surface.insert(run.common.radius)
+            }
+            _ => maps.surface_radius,
+        };
+        let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
         let blocks = samples.div_ceil(BLOCK);
         let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
             .into_par_iter()
@@ -71,7 +79,7 @@ impl<const C: usize> Session<'_, C> {
             parts.iter().for_each(|part| light.add(&part.light));
             let mut mean = light.over(samples as f64);
             if self.settings.method == Method::Adaptive {
-                run.of_cells[index].learn(&mean, radii[index], number + 1, self.largest_radius());
+                run.of_cells[index].learn(&mean, radii[index], number + 1, &run.common, self.largest_radius());
             }
             mean.irradiance += probed;
             if let Some((irradiance, photons)) = maps.in_cells.of(index) {
@@ -124,7 +132,7 @@ impl<const C: usize> Session<'_, C> {
     }
 
     /// No radius grows beyond this, metres: a quarter of the scene.
-    fn largest_radius(&self) -> f64 {
+    pub(crate) fn largest_radius(&self) -> f64 {
         let (low, high) = self.world.bounds();
         0.25 * (high - low).max_element()
     }

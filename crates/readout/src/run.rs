@@ -4,7 +4,11 @@ use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
 use photonlab_trace::Ledger;
 
-use crate::{CellResult, Method, Outcome, Session, adaptive::CellRadius, maps::Radii};
+use crate::{
+    CellResult, Method, Outcome, Session,
+    adaptive::{CellRadius, Common},
+    maps::Radii,
+};
 
 /// What the passes so far have found.
 pub(crate) struct Run<const C: usize> {
@@ -13,11 +17,11 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) radii: Radii,
     /// Each cell's own radius, for [`Method::Adaptive`].
     pub(crate) of_cells: Vec<CellRadius>,
+    /// What all cells have shown in the first pass, for it and [`Method::Radius`].
+    pub(crate) common: Common,
     pub(crate) radius: f64,
     pub(crate) photons: u64,
     pub(crate) passes: u64,
-    /// Passes before the first that counts.
-    pub(crate) pilots: u64,
     pub(crate) samples: u64,
     pub(crate) out_of_reach: bool,
     /// Found once: see [`Session::brightest_glint`].
@@ -31,10 +35,10 @@ impl<const C: usize> Run<C> {
             ledger: None,
             radii: Radii::default(),
             of_cells: vec![CellRadius::default(); cells],
+            common: Common::default(),
             radius: 0.0,
             photons: 0,
             passes: 0,
-            pilots: 0,
             samples: 0,
             out_of_reach: false,
             brightest_glint: None,
@@ -58,7 +62,7 @@ impl<const C: usize> Run<C> {
             radius: (has_radius && self.photons > 0).then_some(self.radius * per_pass),
             cells: self.cells,
             photons: self.photons,
-            passes: self.passes + self.pilots,
+            passes: self.passes,
             samples: self.samples,
             stopped,
             lamp_flux: optics.palette.develop(optics.lamps.total_flux()),

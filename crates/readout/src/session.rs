@@ -138,8 +138,8 @@ impl<const C: usize> Session<'_, C> {
         let start = Instant::now();
         self.check_steady()?;
         let schedule = &self.fit_into_time(cells, schedule, source, start)?;
-        let mut run = self.begin(cells, schedule, source)?;
-        let passes = passes_at_hand(schedule, source).map(|passes| passes - run.pilots);
+        let mut run = Run::new(cells.len());
+        let passes = passes_at_hand(schedule, source);
         let mut next_look = PASSES_BEFORE_STOPPING;
         let mut longest = Duration::ZERO;
         loop {
@@ -170,21 +170,6 @@ impl<const C: usize> Session<'_, C> {
                 return Ok(run.finish(self, stopped));
             }
         }
-    }
-
-    /// An empty run; where cells find radii for themselves, after a pass that serves nothing else, because a mean is long in
-    /// forgetting passes that were read with a wrong radius. Its photons are part of those asked for; one pass alone has none
-    /// to spare.
-    fn begin(&self, cells: &[Cell], schedule: &Schedule, source: &Source<'_, C>) -> Result<Run<C>, ReadError> {
-        let run = Run::new(cells.len());
-        let single = passes_at_hand(schedule, source).is_some_and(|passes| passes < 2);
-        if self.settings.method != Method::Adaptive || single {
-            return Ok(run);
-        }
-        let mut pilot = Run::new(cells.len());
-        self.pass(&mut pilot, cells, schedule, source)?;
-        let Run { of_cells, radii, photons, samples, .. } = pilot;
-        Ok(Run { of_cells, radii, photons, samples, pilots: 1, ..run })
     }
 
     /// Follows some photons where a medium loses no light: one without an end would hold a ray from an eye for ever, and only
