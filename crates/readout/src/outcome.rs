@@ -10,6 +10,13 @@ use photonlab_trace::Ledger;
 /// trifle are not certified.
 const MISSING_AT_MOST: f64 = 3.0;
 
+/// This share of the bias's own confidence interval is added to its size. With noise s of the value and s_b of the bias, their
+/// correlation c, and a true bias far from zero, a reading is missed on one side alone, where the value's noise less the bias's
+/// is beyond t (s + share s_b): 5 % of the normal distribution at 95 % need 0.84 sqrt(s^2 + s_b^2 - 2 c s s_b) of that sum. A
+/// disc's check has s_b = 0.29 s and c = -0.87, one at an edge 0.87 s and -0.87, that of the k nearest 2 s and 0: shares of 0.20, 0.59
+/// and 0.44.
+const OF_BIAS_NOISE: f64 = 0.6;
+
 /// One cell's values over the passes.
 #[derive(Clone, Debug)]
 pub struct CellResult<const C: usize> {
@@ -98,7 +105,8 @@ impl<const C: usize> CellResult<C> {
         !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
     }
 
-    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with its own uncertainty, three times what was
+    /// Bound on the bias of a channel at a confidence: the estimated kernel bias with as much of its own uncertainty as the reading's
+    /// interval needs, three times what was
     /// gathered across edges, and [`CellResult::rare_bound`].
     pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
         let degrees = self.bias[channel].degrees_of_freedom();
@@ -114,7 +122,7 @@ impl<const C: usize> CellResult<C> {
     pub fn lasting_bias_within(&self, channel: usize, quantile: f64) -> f64 {
         let bias = &self.bias[channel];
         bias.mean().unwrap_or(0.0).abs()
-            + quantile * bias.std_error().unwrap_or(0.0)
+            + OF_BIAS_NOISE * quantile * bias.std_error().unwrap_or(0.0)
             + MISSING_AT_MOST * self.unresolved[channel].mean().unwrap_or(0.0).abs()
     }
 
@@ -179,7 +187,8 @@ impl ErrorOver {
     /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
     pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], results: usize, confidence: f64) -> Option<f64> {
         self.combine(cells, results, confidence, |cell, c, t| {
-            let noise = cell.value[c].std_error().unwrap_or(0.0) + cell.bias[c].std_error().unwrap_or(0.0);
+            let noise =
+                cell.value[c].std_error().unwrap_or(0.0) + OF_BIAS_NOISE * cell.bias[c].std_error().unwrap_or(0.0);
             let known = cell.bias[c].mean().unwrap_or(0.0).abs()
                 + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs()
                 + cell.rare_bound(c);

@@ -7,7 +7,7 @@ use photonlab_gather::Scratch;
 use rayon::prelude::*;
 
 use crate::{
-    Cell, Session, Target,
+    Cell, ErrorOver, Session, Target,
     adaptive::{Common, NOISE_OF_BIAS},
     look::Look,
 };
@@ -25,6 +25,9 @@ const GROWS: f64 = 2.0;
 const LEFT: f64 = 0.05;
 const MOST_PHOTONS: f64 = 1000.0;
 
+/// By so much the share of balls that reach over edges may grow where every reading is to be certified.
+const ASTRAY: f64 = 0.001;
+
 /// Sums over the cells.
 #[derive(Clone, Copy, Default)]
 struct Seen {
@@ -34,6 +37,7 @@ struct Seen {
     variance: f64,
     photons: f64,
     reads: f64,
+    astray: f64,
     cells: f64,
 }
 
@@ -44,12 +48,19 @@ impl<const C: usize> Session<'_, C> {
     /// the balls of each radius show. All cells have a part in it, so that it hardly depends on any one's photons.
     pub(crate) fn tuned_radius(&self, look: &Look<'_, C>, cells: &[Cell], first: f64) -> Common {
         let mut common = Common { radius: first, bend_squared: 0.0 };
+        let (mut before, mut fewest_astray) = (common, 1.0);
         for _ in 0..LOOKS {
             let radius = common.radius;
             let seen = self.see(look, cells, radius);
             if seen.variance <= 0.0 {
                 break;
             }
+            // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
+            let astray = seen.astray / seen.reads.max(1.0);
+            if self.error_over == ErrorOver::Worst && astray > fewest_astray + ASTRAY {
+                return before;
+            }
+            (before, fewest_astray) = (common, fewest_astray.min(astray));
             let bias_squared = (seen.bias_squared - seen.of_noise).max(LEFT * seen.of_noise);
             let change = (seen.variance / (2.0 * bias_squared)).powf(1.0 / 6.0);
             let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt().max(1.0);
@@ -76,13 +87,21 @@ impl<const C: usize> Session<'_, C> {
                 for sample in 0..points as u64 {
                     light.add(&look.sample(cell, number, sample, &shift, radius, scratch).light);
                 }
-                let Light { photons, reads, .. } = light;
+                let Light { photons, reads, astray, .. } = light;
                 let light = light.over(points as f64);
                 let bias = light.bias.0.iter().sum::<f64>() / C as f64;
                 // A cell wider than the ball has the mean of several balls, whose noise is each other's only in part.
                 let balls = (self.area(cell) / (PI * radius * radius)).max(1.0);
                 let of_noise = NOISE_OF_BIAS * light.noise / balls.min(points as f64);
-                Seen { bias_squared: bias * bias, of_noise, variance: light.noise / balls, photons, reads, cells: 1.0 }
+                Seen {
+                    bias_squared: bias * bias,
+                    of_noise,
+                    variance: light.noise / balls,
+                    photons,
+                    reads,
+                    astray,
+                    cells: 1.0,
+                }
             })
             .collect();
         of_cells.iter().fold(Seen::default(), |sum, one| Seen {
@@ -91,6 +110,7 @@ impl<const C: usize> Session<'_, C> {
             variance: sum.variance + one.variance,
             photons: sum.photons + one.photons,
             reads: sum.reads + one.reads,
+            astray: sum.astray + one.astray,
             cells: sum.cells + one.cells,
         })
     }
