@@ -57,13 +57,13 @@ pub(crate) struct Options {
     /// Photons of a nearest-photon estimate [default: 50].
     #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) k: Option<u64>,
-    /// Gather radius in metres [default: from scene and photons].
+    /// Gather radius in metres [default: from scene and photons, by a look at the first pass].
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) radius: Option<f64>,
     /// Weight of a photon by its distance [default: disc].
     #[arg(long, value_enum)]
     pub(crate) kernel: Option<KernelName>,
-    /// What gathered flux is divided by, with the slope taken out beside edges or not [default: disc].
+    /// What gathered flux is divided by: the disc, or the surface that is in the ball [default: clipped].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
     /// Final-gather rays per point [default: 1].
