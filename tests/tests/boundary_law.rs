@@ -157,3 +157,40 @@ fn free_edges_of_rectangles_meshes_and_disks_read_even_light() {
     }
     family.decide();
 }
+
+/// A floor under parallel light on which a body stands: beside its own edge what is read has an error bar, beside the body it has none,
+/// for the floor under it counts as area and gets no light.
+#[test]
+fn beside_a_body_on_the_floor_nothing_is_certified() {
+    let meter = |x: f64, y: f64| {
+        format!(
+            r#"<sensor type="radiancemeter"><transform name="to_world"><lookat origin="{x} {y} 1" target="{x} {y} 0"
+            up="0 1 0"/></transform><film type="hdrfilm"><integer name="width" value="1"/><integer name="height"
+            value="1"/><rfilter type="box"/></film></sensor>"#
+        )
+    };
+    // The cube reaches from -0.25 to 0.25; the sun stands high, and its shadow falls away from the meter beside it.
+    let scene = format!(
+        r#"<scene version="3.0.0"><emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/><rgb name="irradiance" value="2"/></emitter>
+        <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
+        <shape type="cube"><transform name="to_world"><scale value="0.25"/><translate z="0.25"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>{}{}{}</scene>"#,
+        meter(-0.95, 0.0),
+        meter(-0.3, 0.0),
+        meter(-0.6, 0.5)
+    );
+    let lab = Lab::new(&scene);
+    for (i, method) in [Method::Radius { radius: Some(0.1) }, Method::Nearest { k: 400 }].into_iter().enumerate() {
+        let mut settings = settings(method, seed(1640 + i as u32));
+        settings.direct = Direct::Photons;
+        settings.estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
+        let outcome = lab.measure::<1>(settings, 1_000_000, 16, 16);
+        let [edge, body, open] = [0, 1, 2].map(|cell| &outcome.cells[cell]);
+        assert_eq!(edge.astray.mean(), Some(0.0), "at the floor's edge");
+        assert_eq!(body.astray.mean(), Some(1.0), "beside the body");
+        assert_eq!(open.astray.mean(), Some(0.0), "in the open");
+        let read = |cell: &photonlab_readout::CellResult<1>| cell.value[0].mean().unwrap_or(0.0) * PI;
+        assert!((read(edge) - 1.0).abs() < edge.half_width(0, 0.9999).unwrap_or(0.0) * PI, "{}", read(edge));
+        assert!(read(body) < 0.9, "it lacks what the body hides: {}", read(body));
+    }
+}
