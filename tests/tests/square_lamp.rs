@@ -2,7 +2,7 @@
 
 use std::{f64::consts::PI, time::Instant};
 
-use photonlab_readout::Method;
+use photonlab_readout::{Direct, Method, Settings};
 use photonlab_reference::square_lamp::RectangularLamp;
 use photonlab_tests::{Lab, seed, settings};
 
@@ -11,8 +11,12 @@ const HALF_WIDTH: f64 = 1.5;
 
 /// Root of the mean squared error over the mean, of irradiance read as pi L / rho, pixel by pixel against the cell's mean.
 fn relative_rmse(lamp: &RectangularLamp, cells: usize, passes: u64, spp: u64, seed: u64) -> f64 {
+    rmse_by(settings(Method::FinalGather { radius: None }, seed), 16_000, lamp, cells, passes, spp)
+}
+
+fn rmse_by(settings: Settings, photons: u64, lamp: &RectangularLamp, cells: usize, passes: u64, spp: u64) -> f64 {
     let lab = Lab::new(&lamp.xml(FLOOR_REFLECTANCE, HALF_WIDTH, cells));
-    let outcome = lab.render::<1>(settings(Method::FinalGather { radius: None }, seed), 16_000, passes, spp);
+    let outcome = lab.render::<1>(settings, photons, passes, spp);
     let side = 2.0 * HALF_WIDTH / cells as f64;
     let (mut squares, mut sum) = (0.0, 0.0);
     for (i, pixel) in outcome.cells.iter().enumerate() {
@@ -51,4 +55,20 @@ fn an_image_is_not_turned() {
     let turned = RectangularLamp::new([0.4, 1.6], 0.8, 5.0).expect("in range");
     let apart = turned.irradiance(0.0, 0.8) / lamp.irradiance(0.0, 0.8);
     assert!(apart > 1.5, "the two lamps differ enough to be told apart: {apart}");
+}
+
+/// Photons alone, whose radius nobody names: no more error than with the best of five radii within a tenth, and so with radii that
+/// pixels find for themselves. Half of the best radius has half as much error again.
+#[test]
+fn the_radius_that_a_run_finds_is_as_good_as_the_best() {
+    let error = |method: Method| {
+        let settings = Settings { direct: Direct::Photons, ..settings(method, seed(802)) };
+        rmse_by(settings, 400_000, &RectangularLamp::SQUARE, 64, 8, 8)
+    };
+    let fixed = [0.05, 0.1, 0.15, 0.2, 0.3].map(|radius| error(Method::Radius { radius: Some(radius) }));
+    let best = fixed.into_iter().fold(f64::INFINITY, f64::min);
+    let found = [Method::Radius { radius: None }, Method::Adaptive].map(error);
+    println!("fixed radii {fixed:.4?}, found {found:.4?}");
+    assert!(found.iter().all(|&error| error <= 1.1 * best), "{found:?}, the best of fixed radii {best}");
+    assert!(fixed[0] > 1.5 * best, "radii matter: {fixed:?}");
 }
