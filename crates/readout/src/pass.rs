@@ -14,8 +14,12 @@ use crate::{
     maps::PassMaps,
     probe::{probe, shares},
     run::Run,
+    session::passes_at_hand,
     trace_pass,
 };
+
+/// Passes for which a radius is tuned where nobody says how many there will be.
+const USUAL_PASSES: u64 = 16;
 
 /// Samples that one task takes of one cell.
 const BLOCK: u64 = 256;
@@ -50,7 +54,8 @@ impl<const C: usize> Session<'_, C> {
         };
         let surface_radius = match (self.settings.method, &maps.surface) {
             (Method::Radius { radius: None } | Method::Adaptive, Some(_)) if number == 0 => {
-                run.common = self.tuned_radius(&look, cells, maps.surface_radius);
+                let passes = passes_at_hand(schedule, source).unwrap_or(USUAL_PASSES);
+                run.common = self.tuned_radius(&look, cells, maps.surface_radius, passes);
                 run.radius += run.common.radius - maps.surface_radius;
                 *run.radii.surface.insert(run.common.radius)
             }

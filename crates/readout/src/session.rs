@@ -229,7 +229,7 @@ impl<const C: usize> Session<'_, C> {
 }
 
 /// The passes asked for, or as many as a saved map has; `None` if only a target or a clock ends the run.
-fn passes_at_hand<const C: usize>(schedule: &Schedule, source: &Source<'_, C>) -> Option<u64> {
+pub(crate) fn passes_at_hand<const C: usize>(schedule: &Schedule, source: &Source<'_, C>) -> Option<u64> {
     match source {
         Source::Trace => schedule.ends.passes,
         Source::Map(file) => Some(schedule.ends.passes.unwrap_or(u64::MAX).min(file.passes.len() as u64)),

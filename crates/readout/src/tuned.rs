@@ -3,27 +3,30 @@
 use std::f64::consts::PI;
 
 use photonlab_final_gather::Light;
-use photonlab_gather::Scratch;
+use photonlab_gather::{CHECK, Scratch};
 use rayon::prelude::*;
 
 use crate::{
     Cell, ErrorOver, Session, Target,
     adaptive::{Common, NOISE_OF_BIAS},
     look::Look,
+    maps::SHRINK,
 };
 
 /// Points that are looked at, spread over the cells; of more cells, some.
 const POINTS: usize = 4096;
-/// Looks at most, and the change of radius below which another would not pay.
+/// Looks at most, each at twice the radius.
 const LOOKS: usize = 8;
-const SETTLED: f64 = 0.1;
-/// The radius shrinks or grows by at most these factors from one look to the next.
-const SHRINKS: f64 = 0.5;
-const GROWS: f64 = 2.0;
-/// This share of the bias's own variance stays in its square, so that flat light does not ask for a radius without end; and no
-/// radius holds more photons than this on average, beyond which time grows and little is gained.
-const LEFT: f64 = 0.05;
+/// No radius holds more photons than this on average: beyond, time grows and little is gained.
 const MOST_PHOTONS: f64 = 1000.0;
+/// A look at which the squared bias is below this share of its own noise says nothing of how the bias grows.
+const HEARD: f64 = 0.2;
+/// This share of the bias's own variance stays in its square, so that flat light does not ask for a radius without end.
+const LEFT: f64 = 0.05;
+
+/// Powers of the radius with which a bias grows: at a step of light it does not, beside one it grows at first the slower.
+const SLOWEST: f64 = 0.25;
+const SMOOTH: f64 = 2.0;
 
 /// By so much the share of balls that reach over edges may grow where every reading is to be certified.
 const ASTRAY: f64 = 0.001;
@@ -41,37 +44,76 @@ struct Seen {
     cells: f64,
 }
 
-impl<const C: usize> Session<'_, C> {
-    /// The radius of the first pass with which the sum over cells of the squared error is least, if passes' radii then shrink
-    /// as pass^(-1/6): where one pass's biases are `b r^2` and its variances `v / r^2`, `r^6 = sum v / (2 sum b^2)` (as for a cell
-    /// of its own, see [`CellRadius`](crate::adaptive::CellRadius)). Found from a first radius by looking at what biases and variances
-    /// the balls of each radius show. All cells have a part in it, so that it hardly depends on any one's photons.
-    pub(crate) fn tuned_radius(&self, look: &Look<'_, C>, cells: &[Cell], first: f64) -> Common {
-        let mut common = Common { radius: first, bend_squared: 0.0 };
-        let (mut before, mut fewest_astray) = (common, 1.0);
-        for _ in 0..LOOKS {
-            let radius = common.radius;
-            let seen = self.see(look, cells, radius);
-            if seen.variance <= 0.0 {
-                break;
-            }
-            // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
-            let astray = seen.astray / seen.reads.max(1.0);
-            if self.error_over == ErrorOver::Worst && astray > fewest_astray + ASTRAY {
-                return before;
-            }
-            (before, fewest_astray) = (common, fewest_astray.min(astray));
-            let bias_squared = (seen.bias_squared - seen.of_noise).max(LEFT * seen.of_noise);
-            let change = (seen.variance / (2.0 * bias_squared)).powf(1.0 / 6.0);
-            let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt().max(1.0);
-            let next = radius * change.clamp(SHRINKS, GROWS.min(room));
-            common.bend_squared = bias_squared / (seen.cells * radius.powi(4));
-            common.radius = next.min(self.largest_radius().max(first));
-            if (next / radius - 1.0).abs() < SETTLED {
-                break;
-            }
+impl Seen {
+    /// Share of the balls that reach over edges.
+    fn share_astray(&self) -> f64 {
+        self.astray / self.reads.max(1.0)
+    }
+
+    /// The squared bias that stands above what its own noise makes.
+    fn heard(&self) -> f64 {
+        self.bias_squared - self.of_noise
+    }
+
+    /// The power of the radius with which the bias has grown since a look at half of it: 2 where light is smooth, less beside folds
+    /// and shadows.
+    fn growth_since(&self, before: &Seen) -> f64 {
+        let clear = |seen: &Seen| seen.heard() > HEARD * seen.of_noise;
+        if clear(self) && clear(before) {
+            (0.5 * (self.heard() / before.heard()).log2()).clamp(SLOWEST, SMOOTH)
+        } else {
+            SMOOTH
         }
-        common
+    }
+}
+
+/// How much wider than the best radius for all of some passes the first is to be, if they shrink as pass^(-1/6): the mean of the passes
+/// then has the least squared error, for a bias that grows with a power of the radius.
+fn widening(passes: u64, power: f64) -> f64 {
+    let counted = passes.min(1000);
+    let mean = |of: &dyn Fn(f64) -> f64| (1..=counted).map(|pass| of(pass as f64)).sum::<f64>() / counted as f64;
+    let (variance, bias) = (mean(&|pass| pass.powf(2.0 * SHRINK)), mean(&|pass| pass.powf(-power * SHRINK)));
+    (variance / (bias * bias)).powf(0.5 / (power + 1.0))
+}
+
+impl<const C: usize> Session<'_, C> {
+    /// The radius of the first pass with which the sum over cells of the squared error of `passes` passes is least, if
+    /// their radii shrink as pass^(-1/6). With one pass's variances `v / r^2` and biases `b r^p` that is where
+    /// `v / (passes r^2) = p b^2 r^(2 p)`. Both are looked at with balls of growing radii, until the bias is heard above its own noise,
+    /// and taken from there. All cells have a part in it, so that it hardly depends on any one's photons.
+    pub(crate) fn tuned_radius(&self, look: &Look<'_, C>, cells: &[Cell], first: f64, passes: u64) -> Common {
+        let nearest = self.see(look, cells, 0.5 * first);
+        let (mut radius, mut before, mut seen) = (first, nearest, self.see(look, cells, first));
+        let fewest_astray = nearest.share_astray();
+        for _ in 0..LOOKS {
+            let photons = seen.photons / seen.reads.max(1.0);
+            let may_grow = 4.0 * photons <= MOST_PHOTONS && 2.0 * radius <= self.largest_radius();
+            if seen.bias_squared >= 2.0 * seen.of_noise || !may_grow {
+                break;
+            }
+            radius *= 2.0;
+            (before, seen) = (seen, self.see(look, cells, radius));
+        }
+        if seen.variance <= 0.0 {
+            return Common { radius: first, bend_squared: 0.0 };
+        }
+        let power = seen.growth_since(&before);
+        let squared = seen.heard().max(LEFT * seen.of_noise);
+        // The check takes the bias to grow with the square.
+        let bias_squared = squared * ((CHECK * CHECK - 1.0) / (CHECK.powf(power) - 1.0)).powi(2);
+        let best = seen.variance / (passes as f64 * power * bias_squared);
+        let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt();
+        let last = (radius * best.powf(0.5 / (power + 1.0)).min(room)).min(self.largest_radius().max(first));
+        let mut widest = last * widening(passes, power);
+        while widest > 0.5 * first && self.goes_astray(&self.see(look, cells, widest), fewest_astray) {
+            widest *= 0.8;
+        }
+        Common { radius: widest, bend_squared: squared / (seen.cells * radius.powi(4)) }
+    }
+
+    /// A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
+    fn goes_astray(&self, seen: &Seen, fewest: f64) -> bool {
+        self.error_over == ErrorOver::Worst && seen.share_astray() > fewest + ASTRAY
     }
 
     /// What balls of one radius show.
@@ -120,6 +162,26 @@ impl<const C: usize> Session<'_, C> {
         match cell.target {
             Target::Patch { shape, film, .. } => self.world.cell_area(shape, cell.cell, [film.width, film.height]),
             _ => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_of_many_passes_is_widened_to_the_least_squared_error() {
+        assert_eq!(widening(1, 2.0), 1.0);
+        for (passes, power) in [(8, 2.0), (16, 0.5)] {
+            // The best radius for all is 1: a variance of p / r^2 and a bias of r^p for the mean of all.
+            let error = |first: f64| {
+                let radii = (1..=passes).map(|pass| first * f64::from(pass).powf(-SHRINK));
+                let [variance, bias] = radii.fold([0.0; 2], |[v, b], r| [v + power / (r * r), b + r.powf(power)]);
+                (variance + bias * bias / f64::from(passes)) / f64::from(passes)
+            };
+            let best = widening(passes as u64, power);
+            assert!(error(best) < error(1.01 * best) && error(best) < error(best / 1.01), "{passes} {power}: {best}");
         }
     }
 }
