@@ -245,6 +245,7 @@ impl<const C: usize> Gatherer<'_, C> {
             irradiance: estimate.irradiance,
             bias: estimate.bias,
             noise: 0.0,
+            noise_of_bias: 0.0,
             unresolved: Colour::ZERO,
             photons: estimate.photons as f64,
             reads: 1.0,

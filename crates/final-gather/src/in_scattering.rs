@@ -141,6 +141,7 @@ impl<const C: usize> Walk<'_, '_, C> {
             irradiance: found.radiance,
             bias: found.bias,
             noise: 0.0,
+            noise_of_bias: 0.0,
             unresolved: found.unresolved,
             photons: found.photons as f64,
             reads: 1.0,

@@ -12,6 +12,8 @@ pub struct Light<const C: usize> {
     /// Variance of the mean over channels of a density estimate at the point itself, were its photons alike and independent:
     /// what one photon more or less changes. Zero where none was made.
     pub noise: f64,
+    /// The same of `bias`.
+    pub noise_of_bias: f64,
     /// The part of `irradiance` that was gathered with a ball reaching over an edge or onto another surface, where
     /// `bias` says nothing.
     pub unresolved: Colour<C>,
@@ -31,6 +33,7 @@ impl<const C: usize> Light<C> {
         self.irradiance += other.irradiance;
         self.bias += other.bias;
         self.noise += other.noise;
+        self.noise_of_bias += other.noise_of_bias;
         self.unresolved += other.unresolved;
         self.photons += other.photons;
         self.reads += other.reads;
@@ -44,6 +47,7 @@ impl<const C: usize> Light<C> {
             irradiance: self.irradiance * weight,
             bias: self.bias * weight,
             noise: self.noise * weight.max() * weight.max(),
+            noise_of_bias: self.noise_of_bias * weight.max() * weight.max(),
             unresolved: self.unresolved * weight,
             photons: self.photons,
             reads: self.reads,
@@ -58,6 +62,7 @@ impl<const C: usize> Light<C> {
             irradiance: palette.develop(self.irradiance),
             bias: palette.develop(self.bias),
             noise: self.noise,
+            noise_of_bias: self.noise_of_bias,
             unresolved: palette.develop(self.unresolved),
             photons: self.photons,
             reads: self.reads,
@@ -74,6 +79,7 @@ impl<const C: usize> Light<C> {
             astray: self.astray / samples,
             glints: self.glints / samples,
             noise: self.noise / samples,
+            noise_of_bias: self.noise_of_bias / samples,
             ..self.weighted(Colour::splat(1.0 / samples))
         }
     }

@@ -1,6 +1,6 @@
 //! How far to gather, how to weigh, what to divide by, and which photons count.
 
-use crate::Kernel;
+use crate::{CHECK, Kernel};
 
 /// Which photons an estimate uses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,13 @@ impl AreaModel {
             AreaModel::Clipped => factor,
             AreaModel::Disc | AreaModel::Sphere | AreaModel::Linear => factor * factor,
         }
+    }
+
+    /// The variance of a fixed radius' bias over that of its value. The bias is the difference between a ball and one of four times its
+    /// area, of which the smaller holds a quarter, over what the growth of the bias leaves of it.
+    pub fn noise_of_bias(self, remedied: bool) -> f64 {
+        let growth = if remedied { self.growth_of_bias(CHECK) } else { CHECK * CHECK };
+        (1.0 - 1.0 / (CHECK * CHECK)) / (growth - 1.0).powi(2)
     }
 
     /// The area in square metres for a squared radius.

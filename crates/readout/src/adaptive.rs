@@ -5,10 +5,6 @@ use photonlab_final_gather::Light;
 /// A radius grows or shrinks by at most this factor from one pass to the next.
 const LARGEST_STEP: f64 = 3.0;
 
-/// The variance of a pass's bias over that of its value: the bias is a third of the difference between a ball and one of four times its
-/// area (see [`photonlab_gather::CHECK`]), of which the smaller holds a quarter.
-pub(crate) const NOISE_OF_BIAS: f64 = 1.0 / 12.0;
-
 /// So many passes of its own count as much to a cell as what all cells have shown before the first.
 const PASSES_OF_OTHERS: f64 = 2.0;
 
@@ -39,6 +35,8 @@ pub(crate) struct CellRadius {
     weight: f64,
     bend: f64,
     noise: f64,
+    /// Sum of the squared weights times the variance of each pass's `b`.
+    noise_of_bend: f64,
 }
 
 impl CellRadius {
@@ -65,8 +63,9 @@ impl CellRadius {
             self.weight += weight;
             self.bend += weight * bias / (radius * radius);
             self.noise += weight * mean.noise * radius * radius;
+            self.noise_of_bend += (weight / (radius * radius)).powi(2) * mean.noise_of_bias;
             let (b, v) = (self.bend / self.weight, self.noise / self.weight);
-            let own = (b * b - NOISE_OF_BIAS * v / self.weight).max(0.0);
+            let own = (b * b - self.noise_of_bend / (self.weight * self.weight)).max(0.0);
             let of_others = PASSES_OF_OTHERS * common.radius.powi(6);
             let b_squared = (self.weight * own + of_others * common.bend_squared) / (self.weight + of_others);
             (v / (2.0 * passes as f64 * b_squared)).powf(1.0 / 6.0)
@@ -93,8 +92,7 @@ mod tests {
         let (b, v, passes) = (3.0, 0.002, 20u64);
         let error = |r: f64| (b * r * r).powi(2) + v / (r * r * passes as f64);
         let mut cell = CellRadius::default();
-        // Biases without noise here: what is taken off for it must have become small.
-        for _ in 0..3000 {
+        for _ in 0..30 {
             let r = cell.get(0.01);
             cell.learn(&found(b * r * r, v / (r * r)), r, passes, &Common::default(), 10.0);
         }

@@ -206,10 +206,12 @@ impl<const C: usize> Look<'_, C> {
         let unresolved = found.photons > 0 && astray;
         let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
         let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
+        let noise = brightness * brightness * counted;
         Light {
             irradiance: found.irradiance,
             bias: found.bias,
-            noise: brightness * brightness * counted,
+            noise,
+            noise_of_bias: noise * self.settings.estimator.area.noise_of_bias(found.remedied),
             // A linear fit may read less than nothing, which is no less uncertain.
             unresolved: if unresolved { found.irradiance.map(f64::abs) } else { Colour::ZERO },
             photons: found.photons as f64,

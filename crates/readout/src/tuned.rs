@@ -6,12 +6,7 @@ use photonlab_final_gather::Light;
 use photonlab_gather::{CHECK, Scratch};
 use rayon::prelude::*;
 
-use crate::{
-    Cell, ErrorOver, Session, Target,
-    adaptive::{Common, NOISE_OF_BIAS},
-    look::Look,
-    maps::SHRINK,
-};
+use crate::{Cell, ErrorOver, Session, Target, adaptive::Common, look::Look, maps::SHRINK};
 
 /// Points that are looked at, spread over the cells; of more cells, some.
 const POINTS: usize = 4096;
@@ -19,8 +14,6 @@ const POINTS: usize = 4096;
 const LOOKS: usize = 8;
 /// No radius holds more photons than this on average: beyond, time grows and little is gained.
 const MOST_PHOTONS: f64 = 1000.0;
-/// A look at which the squared bias is below this share of its own noise says nothing of how the bias grows.
-const HEARD: f64 = 0.2;
 /// This share of the bias's own variance stays in its square, so that flat light does not ask for a radius without end.
 const LEFT: f64 = 0.05;
 
@@ -55,11 +48,15 @@ impl Seen {
         self.bias_squared - self.of_noise
     }
 
+    /// True if that is a share of what can be told from chance: of few cells' squared noise the sum varies much.
+    fn is_loud(&self, share: f64) -> bool {
+        self.heard() >= share * (1.0 + 12.0 / self.cells.sqrt()) * self.of_noise
+    }
+
     /// The power of the radius with which the bias has grown since a look at half of it: 2 where light is smooth, less beside folds
     /// and shadows.
     fn growth_since(&self, before: &Seen) -> f64 {
-        let clear = |seen: &Seen| seen.heard() > HEARD * seen.of_noise;
-        if clear(self) && clear(before) {
+        if self.is_loud(0.2) && before.is_loud(0.2) {
             (0.5 * (self.heard() / before.heard()).log2()).clamp(SLOWEST, SMOOTH)
         } else {
             SMOOTH
@@ -88,7 +85,7 @@ impl<const C: usize> Session<'_, C> {
         for _ in 0..LOOKS {
             let photons = seen.photons / seen.reads.max(1.0);
             let may_grow = 4.0 * photons <= MOST_PHOTONS && 2.0 * radius <= self.largest_radius();
-            if seen.bias_squared >= 2.0 * seen.of_noise || !may_grow {
+            if seen.is_loud(1.0) || !may_grow {
                 break;
             }
             radius *= 2.0;
@@ -105,7 +102,7 @@ impl<const C: usize> Session<'_, C> {
         let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt();
         let last = (radius * best.powf(0.5 / (power + 1.0)).min(room)).min(self.largest_radius().max(first));
         let mut widest = last * widening(passes, power);
-        while widest > 0.5 * first && self.goes_astray(&self.see(look, cells, widest), fewest_astray) {
+        while widest > first && self.goes_astray(&self.see(look, cells, widest), fewest_astray) {
             widest *= 0.8;
         }
         Common { radius: widest, bend_squared: squared / (seen.cells * radius.powi(4)) }
@@ -134,7 +131,7 @@ impl<const C: usize> Session<'_, C> {
                 let bias = light.bias.0.iter().sum::<f64>() / C as f64;
                 // A cell wider than the ball has the mean of several balls, whose noise is each other's only in part.
                 let balls = (self.area(cell) / (PI * radius * radius)).max(1.0);
-                let of_noise = NOISE_OF_BIAS * light.noise / balls.min(points as f64);
+                let of_noise = light.noise_of_bias / balls.min(points as f64);
                 Seen {
                     bias_squared: bias * bias,
                     of_noise,
