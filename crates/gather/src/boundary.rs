@@ -25,9 +25,10 @@ pub(crate) struct Correction {
     slope: [f64; 3],
 }
 
-/// The area in a ball must grow at least as this power of the disc's: it is 1 beside an edge or in a corner and 1/2 in a narrow strip. A
-/// face that both balls hold whole looks the same to both, however uneven its light.
-const LEAST_GROWTH: f64 = 0.4;
+/// The area in a ball must grow at least as this power of the disc's: it is 1 beside an edge or in a corner, and above 0.65 near one. In
+/// a strip narrower than both balls it is 1/2, and of a face that both hold whole 0: these look the same to both, however uneven
+/// their light.
+const LEAST_GROWTH: f64 = 0.6;
 
 /// Those for two balls around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]

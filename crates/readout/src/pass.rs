@@ -18,6 +18,10 @@ use crate::{
     trace_pass,
 };
 
+/// Fewer cells than this do not tune the one radius of all their passes: it would go with each run's photons, and so would a bias that
+/// the passes' spread does not show.
+const FEWEST_TO_TUNE: usize = 256;
+
 /// Passes for which a radius is tuned where nobody says how many there will be.
 const USUAL_PASSES: u64 = 16;
 
@@ -52,8 +56,13 @@ impl<const C: usize> Session<'_, C> {
             shares: &shares,
             caustics: &maps.in_cells,
         };
-        let surface_radius = match (self.settings.method, &maps.surface) {
-            (Method::Radius { radius: None } | Method::Adaptive, Some(_)) if number == 0 => {
+        let is_tuned = match self.settings.method {
+            Method::Radius { radius: None } => cells.len() >= FEWEST_TO_TUNE,
+            Method::Adaptive => true,
+            _ => false,
+        };
+        let surface_radius = match &maps.surface {
+            Some(_) if number == 0 && is_tuned => {
                 let passes = passes_at_hand(schedule, source).unwrap_or(USUAL_PASSES);
                 run.common = self.tuned_radius(&look, cells, maps.surface_radius, passes);
                 run.radius += run.common.radius - maps.surface_radius;

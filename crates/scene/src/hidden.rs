@@ -122,7 +122,7 @@ mod tests {
         let slope = |counts| face([[1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.9, 1.0, 0.4], [0.9, 0.0, 0.4]], counts);
         assert!(beside(&[slope(false)]), "a wall that leans over the floor");
         let tile = face([[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0]], true);
-        assert!(beside(&[tile.clone()]), "the next tile");
+        assert!(beside(std::slice::from_ref(&tile)), "the next tile");
         assert!(!beside(&[tile, wall(1.0, [0.0, 1.0])]), "a wall between two tiles");
     }
 }
