@@ -174,10 +174,13 @@ fn beside_a_body_on_the_floor_nothing_is_certified() {
         r#"<scene version="3.0.0"><emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/><rgb name="irradiance" value="2"/></emitter>
         <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>
         <shape type="cube"><transform name="to_world"><scale value="0.25"/><translate z="0.25"/></transform>
-        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>{}{}{}</scene>"#,
+        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape>
+        <shape type="cube"><transform name="to_world"><scale x="0.15" y="0.15" z="0.01"/><translate x="0.6" y="0.6" z="0.01"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf></shape>{}{}{}{}</scene>"#,
         meter(-0.95, 0.0),
         meter(-0.3, 0.0),
-        meter(-0.6, 0.5)
+        meter(-0.6, 0.5),
+        meter(0.73, 0.6)
     );
     let lab = Lab::new(&scene);
     for (i, method) in [Method::Radius { radius: Some(0.1) }, Method::Nearest { k: 400 }].into_iter().enumerate() {
@@ -185,10 +188,12 @@ fn beside_a_body_on_the_floor_nothing_is_certified() {
         settings.direct = Direct::Photons;
         settings.estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
         let outcome = lab.measure::<1>(settings, 1_000_000, 16, 16);
-        let [edge, body, open] = [0, 1, 2].map(|cell| &outcome.cells[cell]);
+        let [edge, body, open, book] = [0, 1, 2, 3].map(|cell| &outcome.cells[cell]);
         assert_eq!(edge.astray.mean(), Some(0.0), "at the floor's edge");
         assert_eq!(body.astray.mean(), Some(1.0), "beside the body");
         assert_eq!(open.astray.mean(), Some(0.0), "in the open");
+        // The floor below has the same normal, and a part of it is under the book.
+        assert_eq!(book.astray.mean(), Some(1.0), "on a book that lies on the floor");
         let read = |cell: &photonlab_readout::CellResult<1>| cell.value[0].mean().unwrap_or(0.0) * PI;
         assert!((read(edge) - 1.0).abs() < edge.half_width(0, 0.9999).unwrap_or(0.0) * PI, "{}", read(edge));
         assert!(read(body) < 0.9, "it lacks what the body hides: {}", read(body));

@@ -81,7 +81,7 @@ impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Aroun
 }
 
 /// What [`World::surface_inside`] finds of a kernel, as a map asks for it: exact for flat faces, discs and spheres, and `None` where
-/// another curved surface or very many faces are in the ball. Areas in square metres, first moments in m^3, second ones in m^4.
+/// another curved surface or very many faces are in the ball. Lengths in radii, areas in discs, as [`Inside`] has them.
 pub fn surface_inside(
     world: &World,
     around: &Neighbourhood,

@@ -17,14 +17,15 @@ const MOST_PHOTONS: f64 = 1000.0;
 /// This share of the bias's own variance stays in its square, so that flat light does not ask for a radius without end.
 const LEFT: f64 = 0.05;
 
-/// Powers of the radius with which a bias grows: at a step of light it does not, beside one it grows at first the slower.
+/// The least and greatest power of the radius with which a bias is taken to grow: at a step of light it does not grow at all, in smooth
+/// light with the square.
 const SLOWEST: f64 = 0.25;
 const SMOOTH: f64 = 2.0;
 
 /// By so much the share of balls that reach over edges may grow where every reading is to be certified.
 const ASTRAY: f64 = 0.001;
 
-/// Sums over the cells.
+/// Sums over the cells of one look: squares and variances in the square of the cells' unit.
 #[derive(Clone, Copy, Default)]
 struct Seen {
     bias_squared: f64,

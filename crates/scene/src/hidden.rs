@@ -26,17 +26,21 @@ pub(crate) struct Around {
 const MOST_PAIRS: usize = 256;
 
 impl Around {
-    /// True if what counts of these faces lies open in the ball: every other face is behind the plane, or comes out of it where
-    /// the ones that count end, as a wall beside a floor does. A body that stands on the floor, or hangs above it, hides some of it.
+    /// True if what counts of these faces lies open in the ball: it is all in the plane, and every other face is behind that, or comes
+    /// out of it where the ones that count end, as a wall beside a floor does. A body that stands on the floor, or hangs above it,
+    /// hides some of it; and the point's own body hides some of a floor that it stands on.
     pub(crate) fn lies_open(&self, faces: &[Face]) -> bool {
         let standing = || faces.iter().filter(|face| !self.is_behind(face));
         let counted = || faces.iter().filter(|face| face.counts);
         if standing().count() * counted().count() > MOST_PAIRS {
             return false;
         }
-        standing().all(|wall| {
-            self.comes_out(wall) && counted().all(|face| std::ptr::eq(face, wall) || self.ends_at(face, wall))
-        })
+        counted().all(|face| self.is_in_plane(face))
+            && standing().all(|wall| self.comes_out(wall) && counted().all(|face| self.ends_at(face, wall)))
+    }
+
+    fn is_in_plane(&self, face: &Face) -> bool {
+        face.corners.iter().all(|&corner| self.height(corner).abs() <= self.tolerance)
     }
 
     fn height(&self, point: DVec3) -> f64 {
@@ -123,6 +127,8 @@ mod tests {
         assert!(beside(&[slope(false)]), "a wall that leans over the floor");
         let tile = face([[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 1.0, 0.0], [1.0, 1.0, 0.0]], true);
         assert!(beside(std::slice::from_ref(&tile)), "the next tile");
+        let below = face([[0.0, 0.0, -0.1], [2.0, 0.0, -0.1], [2.0, 1.0, -0.1], [0.0, 1.0, -0.1]], true);
+        assert!(!beside(&[below]), "a floor under the table");
         assert!(!beside(&[tile, wall(1.0, [0.0, 1.0])]), "a wall between two tiles");
     }
 }
