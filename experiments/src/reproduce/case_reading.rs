@@ -31,9 +31,10 @@ pub(super) struct Rule {
     pub(super) seed: u64,
     /// Wall time for a first reading of one scene by one way.
     pilot_seconds: f64,
-    /// Wall time per meter for the reading that counts, shared by all meters of a scene that are read by one way. Meters
-    /// that would need more than [`Rule::most_paths`] have this time together.
+    /// Wall time per meter for the reading that counts, shared by all meters of a scene that are read by one way.
     seconds: f64,
+    /// The same for all of those together that would need more than [`Rule::most_paths`].
+    seconds_beyond: f64,
     /// Paths beyond which a reading may stay wider than wanted.
     pub(super) most_paths: f64,
     /// Wanted half-width over the value.
@@ -165,8 +166,11 @@ pub(super) fn read<const C: usize>(lab: &Lab, rule: &Rule, seed: u64) -> anyhow:
         };
         let due: Vec<usize> = (0..cells.len()).filter(is_due).collect();
         let within_reach = |i: &&usize| readings[**i].reading.paths_to(precisions[**i]) <= rule.most_paths;
-        let meters = due.iter().filter(within_reach).count().max(1);
-        let end = (finest(&due), rule.seconds * meters as f64);
+        let seconds = match due.iter().filter(within_reach).count() {
+            0 => rule.seconds_beyond,
+            meters => rule.seconds * meters as f64,
+        };
+        let end = (finest(&due), seconds);
         for (i, attempt) in attempt::<C>(lab, &cells, &due, way, seed + 1, end)? {
             readings[i].reading = attempt;
         }

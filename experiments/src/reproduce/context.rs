@@ -17,6 +17,8 @@ pub(super) struct Context {
     pub(super) entries: Vec<String>,
     definition: Definition,
     out: PathBuf,
+    /// The tree's at the start: it may change before a long run ends.
+    commit: Option<String>,
     start: Instant,
 }
 
@@ -35,7 +37,7 @@ impl Context {
     pub(super) fn new(claim: Claim, budget: Budget, entries: &[String], out: &Path) -> anyhow::Result<Self> {
         let definition = Definition::parse(claim.id(), claim.definition())?;
         let entries = entries.to_vec();
-        Ok(Self { claim, budget, entries, definition, out: out.into(), start: Instant::now() })
+        Ok(Self { claim, budget, entries, definition, out: out.into(), commit: commit(), start: Instant::now() })
     }
 
     /// The claim's own parameters at this budget.
@@ -72,7 +74,7 @@ impl Context {
     pub(super) fn record(&self, found: Findings, verdict: Verdict, reason: impl Into<String>) -> Record {
         let d = &self.definition;
         let date = today();
-        let commit = commit();
+        let commit = self.commit.clone();
         let short = commit.as_deref().map_or("no-commit", |c| &c[..c.len().min(10)]).to_string();
         Record {
             claim: self.claim.id().into(),
