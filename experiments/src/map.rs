@@ -4,6 +4,7 @@ use std::{fmt::Write as _, io::Write as _, path::Path};
 
 use photonlab_photometry::{PathClass, Response};
 use photonlab_readout::{Demands, MapFile, MapHeader, Schedule, Settings, Wanted, trace_pass};
+use photonlab_sampling::Sought;
 use photonlab_trace::Classes;
 
 use crate::{
@@ -71,8 +72,9 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
         },
     );
     let passes = schedule.ends.passes.unwrap_or(1);
+    let light = (Sought::All, classes);
     let traced = (0..passes)
-        .map(|pass| trace_pass(&loaded.world, optics.any(), &settings, classes, pass as u32, schedule.photons(pass)));
+        .map(|pass| trace_pass(&loaded.world, optics.any(), &settings, light, pass as u32, schedule.photons(pass)));
     let header = MapHeader {
         channels: C as u32,
         identity: loaded.identity,

@@ -53,6 +53,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("luminaire by wavelength", 3),
     ("thin lens", 3),
     ("distant meters", 3),
+    ("aimed photons", 126),
     ("portal, sky component", 24),
     ("mask before a lamp", 1),
     ("glazed opening", 8),

@@ -10,7 +10,7 @@ use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
     Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
-use photonlab_sampling::{EmissionPlan, Optics, PassOptics};
+use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
     Needs, World,
     read::{read_scene, read_scene_str},
@@ -88,9 +88,13 @@ impl Lab {
         keep: Classes,
         limits: Limits,
     ) -> Traced<C> {
+        self.trace_for(Sought::All, photons, Job { seed, pass, limits, keep })
+    }
+
+    /// Follows the photons of one pass that seek some light; positions are the scene's own, not the map's.
+    pub fn trace_for<const C: usize>(&self, sought: Sought, photons: u64, job: Job) -> Traced<C> {
         let optics = Optics::new(&self.world, Palette::Channels);
-        let plan = EmissionPlan::new(&optics.lamps, photons).expect("photons for every lamp");
-        let job = Job { seed, pass, limits, keep };
+        let plan = EmissionPlan::new(&optics.lamps, photons, sought).expect("photons for every lamp");
         let mut traced = trace(&self.world, &optics, &plan, &job).expect("a scene that absorbs");
         let middle = self.world.middle().to_array();
         for position in &mut traced.positions {

@@ -8,7 +8,7 @@ use photonlab_measure::{Replicates, welch_test};
 use photonlab_photometry::{Colour, Palette};
 use photonlab_readout::{MapFile, MapHeader, Method, scene_identity, trace_pass};
 use photonlab_reference::medium::infinite::{self, InfiniteMedium};
-use photonlab_sampling::Optics;
+use photonlab_sampling::{Optics, Sought};
 use photonlab_tests::{Family, Lab, seed, settings};
 use photonlab_trace::Classes;
 
@@ -124,7 +124,8 @@ fn photons_in_media_survive_a_file() {
     );
     let optics = Optics::<3>::new(&lab.world, Palette::Channels);
     let settings = settings(GATHER, seed(986));
-    let pass = trace_pass(&lab.world, &optics, &settings, Classes::ALL, 0, 1000).expect("light that escapes");
+    let pass =
+        trace_pass(&lab.world, &optics, &settings, (Sought::All, Classes::ALL), 0, 1000).expect("light that escapes");
     assert!(!pass.volume.photons.is_empty() && pass.volume.photons.len() == pass.volume.positions.len());
     let identity = scene_identity(&lab.world.scene);
     let header = MapHeader { channels: 3, identity, seed: 0, classes: Classes::ALL, limits: settings.limits };

@@ -4,7 +4,7 @@ use photonlab_final_gather::{GatherMaps, MapWithRadius, VolumeMaps};
 use photonlab_gather::{Kernel, PhotonMap, Scratch, VolumeMap};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon, VolumePhoton};
-use photonlab_sampling::{EmissionPlan, Optics};
+use photonlab_sampling::{EmissionPlan, Optics, Sought};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, Job, Ledger, VolumeRecords, trace};
 
@@ -45,16 +45,16 @@ pub struct PassPhotons<const C: usize> {
     pub emitted: u64,
 }
 
-/// Traces one pass.
+/// Traces one pass that finds the light that is sought and keeps some classes of it.
 pub fn trace_pass<const C: usize>(
     world: &World,
     optics: &Optics<C>,
     settings: &Settings,
-    keep: Classes,
+    (sought, keep): (Sought, Classes),
     pass: u32,
     photons: u64,
 ) -> Result<PassPhotons<C>, ReadError> {
-    let plan = EmissionPlan::new(&optics.lamps, photons)?;
+    let plan = EmissionPlan::new(&optics.lamps, photons, sought)?;
     let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
     let traced = trace(world, optics, &plan, &job)?;
     Ok(PassPhotons {

@@ -3,7 +3,7 @@
 use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{EmissionPlan, Optics, Purpose, Stream};
+use photonlab_sampling::{EmissionPlan, Optics, Purpose, Sought, Stream};
 use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
@@ -118,7 +118,7 @@ impl<const C: usize> Session<'_, C> {
     /// One pass of photons counted where they arrive.
     fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
         let optics = &*self.optics.of_pass(self.world, self.settings.seed, run.passes as u32);
-        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes))?;
+        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes), Sought::All)?;
         let settings = &self.settings;
         let job =
             Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
@@ -183,7 +183,8 @@ impl<const C: usize> Session<'_, C> {
             Source::Map(file) => file.passes[number as usize].clone(),
             Source::Trace => {
                 let count = schedule.photons(number);
-                trace_pass(self.world, optics, &self.settings, self.settings.classes(), number as u32, count)?
+                let light = (self.sought(), self.settings.classes());
+                trace_pass(self.world, optics, &self.settings, light, number as u32, count)?
             }
         };
         run.book(photons.emitted, &photons.ledger.map(|flux| optics.palette.develop(flux)));

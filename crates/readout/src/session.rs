@@ -4,12 +4,13 @@ use std::time::{Duration, Instant};
 
 use photonlab_measure::Stopped;
 use photonlab_photometry::Channels;
-use photonlab_sampling::{NothingCounts, PassOptics, PlanError};
+use photonlab_sampling::{NothingCounts, PassOptics, PlanError, Sought};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, TraceError};
 
 use crate::{
-    Cell, Demands, ErrorOver, MapFile, Method, Outcome, Schedule, Settings, compiled::runner, run::Run, trace_pass,
+    Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings, compiled::runner, run::Run,
+    trace_pass,
 };
 
 /// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
@@ -111,6 +112,12 @@ impl<const C: usize> Session<'_, C> {
         }
     }
 
+    /// The light that photons are to find for the method's maps.
+    pub(crate) fn sought(&self) -> Sought {
+        let reads_direct = self.settings.method.is_direct_view() && self.settings.direct == Direct::Photons;
+        if self.needs.indirect || self.needs.in_scattering || reads_direct { Sought::All } else { Sought::Caustics }
+    }
+
     /// True if a ray from a diffuse point can bring light that neither lamp sampling nor the caustic map gives.
     pub(crate) fn looks_around(&self) -> bool {
         let by_paths = self.settings.method == Method::Path && self.needs.caustic;
@@ -180,7 +187,7 @@ impl<const C: usize> Session<'_, C> {
         }
         let optics = self.optics.any();
         let photons = STEADY_PHOTONS.max(optics.lamps.lamps.len() as u64);
-        trace_pass(self.world, optics, &self.settings, Classes::NONE, u32::MAX, photons).map(drop)
+        trace_pass(self.world, optics, &self.settings, (Sought::AsEmitted, Classes::NONE), u32::MAX, photons).map(drop)
     }
 
     /// True if more passes cannot bring the error down to the target: the bias of a radius that does not shrink, or light

@@ -6,7 +6,7 @@ use photonlab_photometry::{Colour, Palette};
 use photonlab_scene::{Emitter, Geometry, Ray, World};
 
 use crate::{
-    Environment, Lamp, LampKind, Portal, direct::area_pdf_solid_angle, pattern, portal::way_out,
+    Environment, Lamp, LampKind, Portal, aim::Aims, direct::area_pdf_solid_angle, pattern, portal::way_out,
     window::covering_window,
 };
 
@@ -25,6 +25,8 @@ pub struct Lamps<const C: usize> {
     environment: Option<usize>,
     /// The environment's portals: lamps and their primitives.
     portals: Vec<(usize, u32)>,
+    /// What photons can be aimed at.
+    pub(crate) aims: Aims<C>,
 }
 
 impl<const C: usize> Lamps<C> {
@@ -93,7 +95,8 @@ impl<const C: usize> Lamps<C> {
         let probability: Vec<f64> = lamps.iter().map(|lamp| 0.5 * share(lamp.importance()) + 0.5 * even).collect();
         let sum = |sum: &mut f64, p: &f64| Some(std::mem::replace(sum, *sum + p));
         let before = probability.iter().scan(0.0, sum).collect();
-        Self { lamps, probability, before, of_primitive, environment, portals }
+        let aims = Aims::new(world, &lamps);
+        Self { lamps, probability, before, of_primitive, environment, portals, aims }
     }
 
     /// The lamp of a primitive, if that emits.

@@ -4,6 +4,7 @@
 //! `pdf_area`), or is weighted so that the density has already been divided out; which of the two is said at each.
 #![forbid(unsafe_code)]
 
+mod aim;
 mod compiled;
 mod direct;
 mod enclosure;
@@ -44,7 +45,7 @@ pub use microfacet::Facets;
 pub use optics::Optics;
 pub use pass_optics::{NothingCounts, PassOptics};
 pub use phase::{phase_pdf_solid_angle, scatter};
-pub use plan::{EmissionPlan, PlanError};
+pub use plan::{EmissionPlan, PlanError, Sought};
 pub use portal::Portal;
 pub use rough::{FacetMaterial, Rough, RoughDraw};
 pub use scatter::{Dispersive, Followed, Interaction, Onward, goes_through};

@@ -16,6 +16,8 @@ pub enum Purpose {
     Wavelengths = 5,
     /// Walks that look for ways out; the index is the walk's.
     Enclosure = 6,
+    /// Looks at what an aim's rays carry; the index is the aim's.
+    Aims = 7,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }

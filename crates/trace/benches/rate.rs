@@ -3,7 +3,7 @@
 //! rounds (5).
 
 use photonlab_photometry::{Palette, Photon, Response, WAVELENGTHS};
-use photonlab_sampling::{EmissionPlan, Optics, PassOptics};
+use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{World, read::read_scene_str};
 use photonlab_trace::{Classes, Job, Limits, trace};
 
@@ -49,7 +49,7 @@ struct Rate {
 
 fn race<const C: usize>(name: &'static str, world: &World, optics: &Optics<C>, keep: Classes, rates: &mut Vec<Rate>) {
     let paths = setting("RATE_PATHS", 400_000);
-    let plan = EmissionPlan::new(&optics.lamps, paths).expect("a lamp");
+    let plan = EmissionPlan::new(&optics.lamps, paths, Sought::AsEmitted).expect("a lamp");
     let job = Job { seed: 1, pass: 0, limits: Limits::default(), keep };
     let start = cpu_seconds();
     let traced = trace(world, optics, &plan, &job).expect("walls that absorb");

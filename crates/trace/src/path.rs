@@ -103,9 +103,7 @@ pub(crate) fn follow<const C: usize>(
     witness: &mut impl Witness<C>,
 ) -> Result<(), TraceError> {
     let mut stream = Stream::new(job.seed, Purpose::Photons, job.pass, index);
-    let (lamp, flux) = plan.photon(index);
-    let emission = optics.lamps.lamps[lamp].emit(world, &mut stream);
-    let flux = flux * emission.weight;
+    let (lamp, emission, flux) = plan.emit(world, &optics.lamps, index, &mut stream);
     out.ledger.emitted += flux;
     // A ray that another lamp or nothing stands for.
     if flux.is_zero() {

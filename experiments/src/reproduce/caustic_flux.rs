@@ -6,7 +6,7 @@ use photonlab_measure::{Axis, Expected, FigureData, Interval, Point, Replicates,
 use photonlab_photometry::{Palette, PathClass};
 use photonlab_readout::{Cell, Method, Settings, Wanted, trace_pass};
 use photonlab_reference::{ball_lens::BallLens, mirror_arc};
-use photonlab_sampling::Optics;
+use photonlab_sampling::{Optics, Sought};
 use photonlab_trace::Classes;
 
 use super::{
@@ -115,7 +115,7 @@ pub(super) fn ball_rings(photons: u64, seeds: &Range<u64>, found: &mut Findings)
     let law: Vec<f64> = RINGS.windows(2).map(|ends| lens.flux_within(ends[1]) - lens.flux_within(ends[0])).collect();
     for seed in seeds.clone() {
         let settings = Strategy::FINAL_GATHER.settings(seed);
-        let pass = trace_pass(&lab.world, &optics, &settings, Classes::ALL, 0, photons)?;
+        let pass = trace_pass(&lab.world, &optics, &settings, (Sought::AsEmitted, Classes::ALL), 0, photons)?;
         let mut counted = vec![0.0; law.len()];
         for (position, photon) in pass.positions.iter().zip(&pass.photons) {
             let r = (f64::from(position[0]) + middle.x).hypot(f64::from(position[1]) + middle.y);

@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Palette;
 use photonlab_readout::trace_pass;
-use photonlab_sampling::{Optics, Stream};
+use photonlab_sampling::{Optics, Sought, Stream};
 use photonlab_trace::Classes;
 
 use super::{field::stream, lab::Lab, strategy::Strategy};
@@ -65,7 +65,8 @@ fn traced(
     let lab = Lab::new(name, xml, &[])?;
     let optics = Optics::<3>::new(&lab.world, Palette::Channels);
     let settings = Strategy::NEAREST_DIRECT_VIEW.settings(seed);
-    let pass = |paths| trace_pass(&lab.world, &optics, &settings, Classes::ALL, replicate as u32, paths);
+    let pass =
+        |paths| trace_pass(&lab.world, &optics, &settings, (Sought::AsEmitted, Classes::ALL), replicate as u32, paths);
     let mut paths = (count as u64).max(1024);
     loop {
         let mut positions = pass(paths)?.positions;

@@ -9,7 +9,7 @@ use photonlab_measure::Replicates;
 use photonlab_photometry::Palette;
 use photonlab_readout::{Direct, Method, PassPhotons, Settings, trace_pass};
 use photonlab_reference::rendering_equation::{DiffuseTransmitter, EquationReading};
-use photonlab_sampling::{Optics, Stream, warp};
+use photonlab_sampling::{Optics, Sought, Stream, warp};
 use photonlab_trace::{Classes, Limits};
 use serde::Deserialize;
 
@@ -67,7 +67,7 @@ pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<Shee
     };
     let mut readings = SheetReadings::default();
     for pass in 0..p.replicates {
-        let photons = trace_pass(&lab.world, &optics, &settings, Classes::ALL, pass, p.photons)?;
+        let photons = trace_pass(&lab.world, &optics, &settings, (Sought::AsEmitted, Classes::ALL), pass, p.photons)?;
         readings.counted.push(count_outgoing(p, &photons, &mut stream(p.seed, u64::from(pass))));
         let map = PhotonMap::build(photons.positions, photons.photons, SplitRule::Median)?;
         let irradiance = |up: f32, tests| {

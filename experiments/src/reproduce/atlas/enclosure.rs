@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use photonlab_photometry::{Colour, Palette};
 use photonlab_reference::integrating_sphere::IntegratingSphere;
-use photonlab_sampling::{EmissionPlan, Optics, Stream};
+use photonlab_sampling::{EmissionPlan, Optics, Sought, Stream};
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
 
 use crate::reproduce::lab::Lab;
@@ -42,7 +42,7 @@ impl Enclosure {
     /// Follows photons with a seed drawn from a stream.
     pub(super) fn trace(&self, photons: u64, stream: &mut Stream) -> anyhow::Result<Traced<1>> {
         let optics = Optics::new(&self.lab.world, Palette::Channels);
-        let plan = EmissionPlan::new(&optics.lamps, photons)?;
+        let plan = EmissionPlan::new(&optics.lamps, photons, Sought::AsEmitted)?;
         let job = Job { seed: stream.next().to_bits(), pass: 0, limits: Limits::default(), keep: Classes::ALL };
         Ok(trace(&self.lab.world, &optics, &plan, &job)?)
     }

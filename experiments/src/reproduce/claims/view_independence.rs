@@ -5,7 +5,7 @@ use photonlab_measure::{
 };
 use photonlab_photometry::Palette;
 use photonlab_readout::{Cell, MapFile, MapHeader, Outcome, Source, Wanted, scene_identity, trace_pass};
-use photonlab_sampling::Optics;
+use photonlab_sampling::{Optics, Sought};
 use photonlab_scene::{Film, Receiver};
 use photonlab_trace::Classes;
 use serde::Deserialize;
@@ -91,8 +91,8 @@ fn build(lab: &Lab, p: &Parameters) -> anyhow::Result<MapFile<CHANNELS>> {
         limits: settings.limits,
     };
     let share = |pass: u64| p.photons * (pass + 1) / PASSES - p.photons * pass / PASSES;
-    let passes =
-        (0..PASSES).map(|pass| trace_pass(&lab.world, &optics, &settings, Classes::ALL, pass as u32, share(pass)));
+    let light = (Sought::All, Classes::ALL);
+    let passes = (0..PASSES).map(|pass| trace_pass(&lab.world, &optics, &settings, light, pass as u32, share(pass)));
     Ok(MapFile { header, passes: passes.collect::<Result<_, _>>()? })
 }
 
