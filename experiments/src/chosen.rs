@@ -13,12 +13,9 @@ use crate::{
     command::{AreaName, DeviceName, DirectName, KernelName, MethodName, Options, UnitsName},
 };
 
-/// Photons of a nearest-photon estimate unless asked otherwise.
-const DEFAULT_K: usize = 50;
-
 /// Reads even light right up to edges and into corners, where the disc reads down to a quarter; what a slope leaves is in the error
 /// bar, and no reading is below zero, as a linear fit's may be. In the open it is the disc.
-pub(crate) const DEFAULT_ESTIMATOR: Estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
+pub(crate) const DEFAULT_ESTIMATOR: Estimator = Estimator::new(Kernel::Disc, AreaModel::Clipped);
 
 impl Options {
     /// The settings for a scene.
@@ -35,12 +32,11 @@ impl Options {
                 )));
             }
         }
-        let k = self.k.unwrap_or(DEFAULT_K as u64);
-        if k < 2 {
+        if self.k.is_some_and(|k| k < 2) {
             return Err(Failure::usage("--k must be at least 2: the k-th photon only sets the radius"));
         }
         let method = match name {
-            MethodName::Nearest => Method::Nearest { k: usize::try_from(k).unwrap_or(usize::MAX) },
+            MethodName::Nearest => Method::Nearest { k: self.k.map(|k| usize::try_from(k).unwrap_or(usize::MAX)) },
             MethodName::Radius => Method::Radius { radius: self.radius },
             MethodName::Adaptive => Method::Adaptive,
             MethodName::Path => Method::Path,
@@ -69,7 +65,7 @@ impl Options {
         Ok(Settings {
             method,
             direct,
-            estimator: Estimator { kernel, area },
+            estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(1),
             seed: self.seed,
             limits: Limits {

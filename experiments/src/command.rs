@@ -54,7 +54,7 @@ pub(crate) struct Options {
     /// Emitted paths in all, over lamps and passes.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) photons: Option<u64>,
-    /// Photons of a nearest-photon estimate [default: 50].
+    /// Photons of a nearest-photon estimate [default: from scene and photons, by a look at the first pass].
     #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) k: Option<u64>,
     /// Gather radius in metres [default: from scene and photons, by a look at the first pass].

@@ -17,11 +17,12 @@ pub(crate) fn fixed_command<const C: usize>(
     let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
     option("method", settings.method.name().into());
     match settings.method {
-        Method::Nearest { k } => option("k", k.to_string()),
+        Method::Nearest { k: Some(k) } => option("k", k.to_string()),
         Method::Radius { radius: Some(radius) } | Method::FinalGather { radius: Some(radius) } => {
             option("radius", radius.to_string());
         }
-        Method::Radius { radius: None }
+        Method::Nearest { k: None }
+        | Method::Radius { radius: None }
         | Method::FinalGather { radius: None }
         | Method::Adaptive
         | Method::Path

@@ -20,7 +20,7 @@ const PLACES: [f64; 4] = [0.0, 0.25, 0.5, 1.0];
 fn beside_edge(field: Field, [slope, bend]: [f64; 2], area: AreaModel, bandwidth: Bandwidth) -> [Estimate<1>; 4] {
     let field = field.shaded(|at| 1.0 + slope * at.x / RADIUS + bend * (at.x / RADIUS).powi(2));
     let at = PLACES.map(|t| (DVec3::new(t * RADIUS, 0.0, 0.0), DVec3::Z));
-    let estimator = Estimator { kernel: Kernel::Disc, area };
+    let estimator = Estimator::new(Kernel::Disc, area);
     field.gather_among(at, bandwidth, estimator, &Tests::default(), |query, radius| {
         let m = HalfPlaneMoments::new(PLACES[query] * RADIUS / radius);
         let second = [[m.across, 0.0, 0.0], [0.0, m.along, 0.0], [0.0; 3]];
@@ -97,15 +97,15 @@ fn in_a_furnace_both_read_the_truth_up_to_edges_and_corners() {
     for (i, (method, area, kernel)) in [
         (Method::Radius { radius: Some(radius) }, AreaModel::Clipped, Kernel::Epanechnikov),
         (Method::Radius { radius: Some(radius) }, AreaModel::Linear, Kernel::Cone),
-        (Method::Nearest { k: 60 }, AreaModel::Clipped, Kernel::Biweight),
-        (Method::Nearest { k: 60 }, AreaModel::Linear, Kernel::Gaussian),
+        (Method::Nearest { k: Some(60) }, AreaModel::Clipped, Kernel::Biweight),
+        (Method::Nearest { k: Some(60) }, AreaModel::Linear, Kernel::Gaussian),
     ]
     .into_iter()
     .enumerate()
     {
         let mut settings = settings(method, seed(1620 + i as u32));
         settings.direct = Direct::Photons;
-        settings.estimator = Estimator { kernel, area };
+        settings.estimator = Estimator::new(kernel, area);
         let outcome = lab.measure::<1>(settings, 1_500_000, 64, 64);
         for (meter, cell) in meters.iter().zip(&outcome.cells) {
             let expected = 3.0 + 0.6 * furnace.irradiance()[0] / PI;
@@ -148,7 +148,7 @@ fn free_edges_of_rectangles_meshes_and_disks_read_even_light() {
         for (j, area) in [AreaModel::Clipped, AreaModel::Linear].into_iter().enumerate() {
             let mut settings = settings(Method::Radius { radius: Some(0.3) }, seed(1630 + 2 * i as u32 + j as u32));
             settings.direct = Direct::Photons;
-            settings.estimator = Estimator { kernel: Kernel::Epanechnikov, area };
+            settings.estimator = Estimator::new(Kernel::Epanechnikov, area);
             let outcome = lab.measure::<1>(settings, 400_000, 64, 64);
             for (place, cell) in places.iter().zip(&outcome.cells) {
                 family.mean(format!("{shape}, {area:?}, {place:?}"), &cell.value[0], 0.5 * expected / PI);
@@ -183,10 +183,11 @@ fn beside_a_body_on_the_floor_nothing_is_certified() {
         meter(0.73, 0.6)
     );
     let lab = Lab::new(&scene);
-    for (i, method) in [Method::Radius { radius: Some(0.1) }, Method::Nearest { k: 400 }].into_iter().enumerate() {
+    for (i, method) in [Method::Radius { radius: Some(0.1) }, Method::Nearest { k: Some(400) }].into_iter().enumerate()
+    {
         let mut settings = settings(method, seed(1640 + i as u32));
         settings.direct = Direct::Photons;
-        settings.estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
+        settings.estimator = Estimator::new(Kernel::Disc, AreaModel::Clipped);
         let outcome = lab.measure::<1>(settings, 1_000_000, 16, 16);
         let [edge, body, open, book] = [0, 1, 2, 3].map(|cell| &outcome.cells[cell]);
         assert_eq!(edge.astray.mean(), Some(0.0), "at the floor's edge");

@@ -2,8 +2,9 @@
 
 use photonlab_photometry::PathClass;
 use photonlab_reference::ball_lens::BallLens;
+use photonlab_sampling::Sought;
 use photonlab_tests::{Family, Lab, seed};
-use photonlab_trace::Classes;
+use photonlab_trace::{Classes, Job, Limits};
 
 /// A lamp inside a glass cube [-1, 1]^3.
 fn block(index: f64, lamp: [f64; 3]) -> Lab {
@@ -83,7 +84,8 @@ fn a_ball_lens_sends_its_flux_where_the_ray_map_says() {
     let mut family = Family::new("ball lens, transport");
     let (lens, photons) = (BallLens::BENCHMARK, 1_500_000);
     // A black floor: nothing returns to the ball.
-    let traced = Lab::new(&lens.xml(0.0, 0.6, 8)).trace::<1>(photons, seed(520), 0, Classes::ALL);
+    let job = Job { seed: seed(520), pass: 0, limits: Limits::default(), keep: Classes::ALL };
+    let traced = Lab::new(&lens.xml(0.0, 0.6, 8)).trace_for::<1>(Sought::AsEmitted, photons, job);
     let emitted = traced.ledger.emitted[0];
     for radius in [0.1, 0.25, 0.36, 0.4, 0.8] {
         let inside = traced.positions.iter().filter(|p| f64::from(p[0]).hypot(f64::from(p[1])) <= radius);

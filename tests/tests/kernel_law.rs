@@ -26,7 +26,7 @@ const KERNELS: [(Kernel, KernelUsed); 5] = [
 
 fn gather<const N: usize>(field: Field, at: [f64; N], bandwidth: Bandwidth, kernel: Kernel) -> [Estimate<1>; N] {
     let at = at.map(|x| (DVec3::new(x, 0.0, 0.0), DVec3::Z));
-    field.gather(at, bandwidth, Estimator { kernel, area: AreaModel::Disc }, &Tests::default())
+    field.gather(at, bandwidth, Estimator::new(kernel, AreaModel::Disc), &Tests::default())
 }
 
 fn squares(rows: &[[Estimate<1>; 1]], mean: f64) -> Replicates {

@@ -70,7 +70,7 @@ fn rays_past_a_lamp_in_an_endless_medium_show_its_radiance() {
         ("by paths", Method::Path, 1 << 16),
         ("gathered", GATHER, 1 << 16),
         ("from the map, radius", Method::Radius { radius: None }, 1 << 10),
-        ("from the map, nearest", Method::Nearest { k: 50 }, 1 << 10),
+        ("from the map, nearest", Method::Nearest { k: Some(50) }, 1 << 10),
     ] {
         let read = lab.measure::<1>(settings(method, seed(981)), 400_000, 32, spp);
         for (cell, expected) in read.cells.iter().zip(&case.expected) {

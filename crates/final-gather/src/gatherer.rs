@@ -238,7 +238,7 @@ impl<const C: usize> Gatherer<'_, C> {
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let bandwidth = Bandwidth::Radius(source.radius);
         // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
-        let estimator = Estimator { kernel, area: AreaModel::Disc };
+        let estimator = Estimator::new(kernel, AreaModel::Disc);
         let place = Place { world: self.world, optics: self.optics, at, sight };
         let estimate = place.estimate(source.map, bandwidth, estimator, &tests, scratch);
         Light {

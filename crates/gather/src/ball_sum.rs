@@ -3,7 +3,10 @@
 use photonlab_kdtree::{BLOCK, KdTree, VisitBlock};
 use photonlab_photometry::{Colour, PackedDirection, Photon};
 
-use crate::{CHECK, GatherPoint, Kernel, SAME_SURFACE, Surroundings, Tests, boundary::Corrections};
+use crate::{
+    CHECK, Estimator, GatherPoint, Kernel, SAME_SURFACE, Surroundings, Tests,
+    boundary::{Correction, Corrections},
+};
 
 /// Which photons count at a point.
 #[derive(Clone, Copy)]
@@ -60,13 +63,16 @@ impl Accepted<'_> {
     }
 }
 
-/// What is summed over the photons that count in a ball of [`CHECK`] times the radius.
+/// The sums may visit this much more than the ball, so that rounding leaves none of its photons out.
+const MARGIN: f64 = 1.0 + 1e-6;
+
+/// What is summed over the photons that count in a ball, and in one of [`CHECK`] times the radius where a bias is to be told.
 pub(crate) struct BallSum<'a, const C: usize, S> {
     pub(crate) tree: &'a KdTree<Photon<C>>,
     pub(crate) accepted: Accepted<'a>,
     pub(crate) around: &'a S,
     pub(crate) radius: f64,
-    pub(crate) kernel: Kernel,
+    pub(crate) estimator: Estimator,
     /// `None` where the surface fills the discs.
     pub(crate) corrections: Option<Corrections>,
     /// Photons in the ball itself.
@@ -82,7 +88,7 @@ pub(crate) struct Sums<const C: usize> {
     pub(crate) weighed: Colour<C>,
     /// In the ball, as it is.
     pub(crate) disc: Colour<C>,
-    /// In the wide ball: as it is without corrections, by kernel and correction with them.
+    /// In the wide ball: as it is without corrections, by kernel and correction with them; zero where no bias is to be told.
     pub(crate) wide: Colour<C>,
 }
 
@@ -91,43 +97,35 @@ impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
         tree: &'a KdTree<Photon<C>>,
         accepted: Accepted<'a>,
         around: &'a S,
-        (radius, kernel): (f64, Kernel),
+        (radius, estimator): (f64, Estimator),
         corrections: Option<Corrections>,
     ) -> Self {
         let none = [Lanes::ZERO; 3];
         let [weighed, disc, wide] = none;
-        Self { tree, accepted, around, radius, kernel, corrections, photons: 0, weighed, disc, wide }
+        Self { tree, accepted, around, radius, estimator, corrections, photons: 0, weighed, disc, wide }
     }
 
     /// Walks the tree.
     pub(crate) fn sums(&mut self) -> Sums<C> {
         let (tree, position) = (self.tree, self.accepted.at.position);
-        tree.visit_within(position, (CHECK * self.radius) as f32, &mut *self);
+        let reach = if self.estimator.tells_bias { CHECK } else { MARGIN };
+        tree.visit_within(position, (reach * self.radius) as f32, &mut *self);
         let (disc, wide) = (self.disc.total(), self.wide.total());
-        let plain = self.kernel == Kernel::Disc && self.corrections.is_none();
+        let plain = self.estimator.kernel == Kernel::Disc && self.corrections.is_none();
         Sums { weighed: if plain { disc } else { self.weighed.total() }, disc, wide }
     }
 
-    /// How much each photon counts: in the kernel's sum, and in the wide one.
+    /// How much each photon counts in a kernel's sum, at squared distances over that of a radius.
     #[inline(always)]
-    fn corrected(&self, corrections: &Corrections, first: usize, shares: &[f64; BLOCK]) -> [[f64; BLOCK]; 2] {
+    fn corrected(&self, of: &Correction, first: usize, radius: f64, shares: &[f64; BLOCK]) -> [f64; BLOCK] {
         let axes = self.tree.block_points(first);
-        let mut offsets = [[0.0; BLOCK]; 3];
-        let mut wide_shares = [0.0; BLOCK];
-        let per_radius = 1.0 / self.radius;
+        let mut weights = self.estimator.kernel.weights(shares);
+        let per_radius = 1.0 / radius;
         for lane in 0..BLOCK {
-            for axis in 0..3 {
-                offsets[axis][lane] = f64::from(axes[axis][lane] - self.accepted.at.position[axis]) * per_radius;
-            }
-            wide_shares[lane] = shares[lane] * (1.0 / (CHECK * CHECK));
+            let along = |axis: usize| f64::from(axes[axis][lane] - self.accepted.at.position[axis]) * per_radius;
+            weights[lane] *= of.at([along(0), along(1), along(2)]);
         }
-        let (mut narrow, mut wide) = (self.kernel.weights(shares), self.kernel.weights(&wide_shares));
-        for lane in 0..BLOCK {
-            let offset = [offsets[0][lane], offsets[1][lane], offsets[2][lane]];
-            narrow[lane] *= corrections.narrow.at(offset);
-            wide[lane] *= corrections.wide.at(offset.map(|x| x * (1.0 / CHECK)));
-        }
-        [narrow, wide]
+        weights
     }
 }
 
@@ -167,16 +165,25 @@ impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_,
                 left &= left - 1;
             }
         }
+        let Estimator { kernel, tells_bias, .. } = self.estimator;
         if let Some(corrections) = self.corrections {
-            let [narrow, wide] = self.corrected(&corrections, first, &shares);
+            let narrow = self.corrected(&corrections.narrow, first, self.radius, &shares);
             self.weighed.add(photons, &product(&near, &narrow));
-            self.wide.add(photons, &product(&all, &wide));
+            if tells_bias {
+                let shares = shares.map(|share| share * (1.0 / (CHECK * CHECK)));
+                let wide = self.corrected(&corrections.wide, first, CHECK * self.radius, &shares);
+                self.wide.add(photons, &product(&all, &wide));
+            }
             return;
         }
-        self.disc.add(photons, &near);
-        self.wide.add(photons, &all);
-        if self.kernel != Kernel::Disc {
-            self.weighed.add(photons, &product(&near, &self.kernel.weights(&shares)));
+        if tells_bias {
+            self.wide.add(photons, &all);
+        }
+        if tells_bias || kernel == Kernel::Disc {
+            self.disc.add(photons, &near);
+        }
+        if kernel != Kernel::Disc {
+            self.weighed.add(photons, &product(&near, &kernel.weights(&shares)));
         }
     }
 }

@@ -66,18 +66,34 @@ impl AreaModel {
 }
 
 /// What makes an irradiance of the photons in the ball.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Estimator {
     /// The weight of each photon.
     pub kernel: Kernel,
     /// What their flux is divided by.
     pub area: AreaModel,
+    /// True if a wider ball tells the bias, which costs more than the value itself; else [`Estimate::bias`](crate::Estimate::bias) is
+    /// zero.
+    pub tells_bias: bool,
+}
+
+impl Estimator {
+    /// One that tells its bias.
+    pub const fn new(kernel: Kernel, area: AreaModel) -> Self {
+        Self { kernel, area, tells_bias: true }
+    }
 }
 
 impl From<AreaModel> for Estimator {
     /// With the disc for a kernel, as the paper has it.
     fn from(area: AreaModel) -> Self {
-        Self { kernel: Kernel::Disc, area }
+        Self::new(Kernel::Disc, area)
+    }
+}
+
+impl Default for Estimator {
+    fn default() -> Self {
+        Self::from(AreaModel::default())
     }
 }
 

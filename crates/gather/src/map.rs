@@ -104,19 +104,13 @@ impl<const C: usize> PhotonMap<C> {
     ) -> Estimate<C> {
         let corrections = Correction::pair(estimator, at.normal, [CHECK * radius, radius], around);
         let accepted = Accepted { at, tests };
-        let mut sum = BallSum::new(&self.tree, accepted, around, (radius, estimator.kernel), corrections);
+        let mut sum = BallSum::new(&self.tree, accepted, around, (radius, estimator), corrections);
         let (sums, photons) = (sum.sums(), sum.photons);
         let per_area = 1.0 / estimator.area.area(radius * radius);
         let irradiance = sums.weighed * per_area;
-        let wide = sums.wide * (per_area / (CHECK * CHECK));
-        let Some(corrections) = corrections else {
-            let bias_of_disc = (wide - sums.disc * per_area) * (1.0 / (CHECK * CHECK - 1.0));
-            let bias = bias_of_disc * bias_over_disc(estimator.kernel);
-            return Estimate { irradiance, bias, photons, radius, remedied: false };
-        };
-        // What it would be if it grew with the radius, or with its square where a slope is taken out.
-        let bias = (wide - irradiance) * (1.0 / (estimator.area.growth_of_bias(CHECK) - 1.0));
-        Estimate { irradiance, bias, photons, radius, remedied: corrections.tells }
+        let narrow = if corrections.is_some() { irradiance } else { sums.disc * per_area };
+        let bias = bias(estimator, corrections, sums.wide * (per_area / (CHECK * CHECK)), narrow);
+        Estimate { irradiance, bias, photons, radius, remedied: corrections.is_some_and(|pair| pair.tells) }
     }
 
     /// A photon's offset from a point, in radii.
@@ -143,66 +137,59 @@ impl<const C: usize> PhotonMap<C> {
         self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
-            return self.sum(at, found, max_radius * max_radius, estimator, around);
+            return self.sum(at, (found, None), max_radius * max_radius, estimator, tests, around);
         }
         let Some(last) = found.pop().filter(|last| last.distance_squared > 0.0) else {
             return Estimate::nothing(0.0);
         };
-        self.sum(at, found, f64::from(last.distance_squared), estimator, around)
+        self.sum(at, (found, Some(last.index)), f64::from(last.distance_squared), estimator, tests, around)
     }
 
-    /// The flux of the photons found over the area of a radius.
+    /// The flux of the photons found over the area of a radius. The bias is told as [`PhotonMap::within`] tells it; the photon that has set
+    /// the radius counts in neither ball.
     fn sum(
         &self,
         at: &GatherPoint,
-        found: &Neighbours,
+        (found, last): (&Neighbours, Option<usize>),
         radius_squared: f64,
         estimator: Estimator,
+        tests: &Tests,
         around: &impl Surroundings<Photon<C>>,
     ) -> Estimate<C> {
+        let (radius, kernel) = (radius_squared.sqrt(), estimator.kernel);
+        let corrections = Correction::pair(estimator, at.normal, [CHECK * radius, radius], around);
         let flux = |index: usize| {
             let photon = &self.tree.payloads()[index];
             photon.flux() * around.weigh(photon)
         };
-        let (radius, half, kernel) = (radius_squared.sqrt(), 0.5 * radius_squared, estimator.kernel);
-        let per_area = 1.0 / estimator.area.area(radius_squared);
-        let photons = found.len();
-        // The inner half of the area has half the bias, so twice the difference is the whole; less so where the bias grows with the
-        // radius.
-        let bias = |all: Colour<C>, inner: Colour<C>, growth: f64| {
-            (all * per_area - inner * (2.0 * per_area)) * (growth / (growth - 1.0))
-        };
-        let (mut all, mut inner, mut weighed) = (Colour::ZERO, Colour::ZERO, Colour::ZERO);
-        let radii = [radius, half.sqrt()];
-        if let Some(corrections) = Correction::pair(estimator, at.normal, radii, around) {
-            let Corrections { wide: of_ball, narrow: of_inner, tells } = corrections;
-            let growth = estimator.area.growth_of_bias(2f64.sqrt());
-            for neighbour in found.iter() {
-                let distance_squared = f64::from(neighbour.distance_squared);
-                let flux = flux(neighbour.index);
-                all += flux
-                    * (kernel.weight(distance_squared / radius_squared)
-                        * of_ball.at(self.offset(neighbour.index, at, radii[0])));
-                if distance_squared <= half {
-                    inner += flux
-                        * (kernel.weight(distance_squared / half)
-                            * of_inner.at(self.offset(neighbour.index, at, radii[1])));
-                }
-            }
-            let bias = bias(all, inner, growth);
-            return Estimate { irradiance: all * per_area, bias, photons, radius, remedied: tells };
-        }
+        let (mut all, mut weighed) = (Colour::ZERO, Colour::ZERO);
         for neighbour in found.iter() {
             let flux = flux(neighbour.index);
-            let distance_squared = f64::from(neighbour.distance_squared);
-            all += flux;
-            weighed += flux * kernel.weight(distance_squared / radius_squared);
-            if distance_squared <= half {
-                inner += flux;
+            let mut weight = kernel.weight(f64::from(neighbour.distance_squared) / radius_squared);
+            if let Some(pair) = &corrections {
+                weight *= pair.narrow.at(self.offset(neighbour.index, at, radius));
             }
+            all += flux;
+            weighed += flux * weight;
         }
-        let bias = bias(all, inner, 2.0) * bias_over_disc(kernel);
-        Estimate { irradiance: weighed * per_area, bias, photons, radius, remedied: false }
+        let per_area = 1.0 / estimator.area.area(radius_squared);
+        let irradiance = weighed * per_area;
+        let mut told = Colour::ZERO;
+        if estimator.tells_bias {
+            let accepted = Accepted { at, tests };
+            let mut wide = BallSum::new(&self.tree, accepted, around, (radius, estimator), corrections).sums().wide;
+            if let Some(last) = last {
+                let of_rim = corrections.map_or(1.0, |pair| {
+                    let offset = self.offset(last, at, CHECK * radius);
+                    kernel.weight(1.0 / (CHECK * CHECK)) * pair.wide.at(offset)
+                });
+                wide = wide - flux(last) * of_rim;
+            }
+            let narrow = if corrections.is_some() { irradiance } else { all * per_area };
+            told = bias(estimator, corrections, wide * (per_area / (CHECK * CHECK)), narrow);
+        }
+        let remedied = corrections.is_some_and(|pair| pair.tells);
+        Estimate { irradiance, bias: told, photons: found.len(), radius, remedied }
     }
 
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
@@ -231,6 +218,24 @@ impl<const C: usize> PhotonMap<C> {
         radii.sort_by(f32::total_cmp);
         radii.get(radii.len() / 2).map(|&r| f64::from(r)).filter(|&r| r > 0.0)
     }
+}
+
+/// The bias of an irradiance from what the wide ball and the ball itself read: by the disc where the surface fills it, and there by
+/// the square of the radius; else what it would be if it grew with the radius, or with its square where a slope is taken out.
+fn bias<const C: usize>(
+    estimator: Estimator,
+    corrections: Option<Corrections>,
+    wide: Colour<C>,
+    narrow: Colour<C>,
+) -> Colour<C> {
+    if !estimator.tells_bias {
+        return Colour::ZERO;
+    }
+    let scale = match corrections {
+        None => bias_over_disc(estimator.kernel) / (CHECK * CHECK - 1.0),
+        Some(_) => 1.0 / (estimator.area.growth_of_bias(CHECK) - 1.0),
+    };
+    (wide - narrow) * scale
 }
 
 /// The bias of a kernel where the irradiance is smooth, over that of the disc with the same radius. Discs tell it with less

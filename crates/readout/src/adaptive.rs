@@ -13,6 +13,8 @@ const PASSES_OF_OTHERS: f64 = 2.0;
 pub(crate) struct Common {
     /// Metres.
     pub(crate) radius: f64,
+    /// Photons in its ball, where photons are.
+    pub(crate) photons: f64,
     /// Mean over the cells of the squared bias over the radius to the fourth.
     pub(crate) bend_squared: f64,
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Start, follow};
-use photonlab_gather::{Bandwidth, CHECK, Scratch, Tests};
+use photonlab_gather::{Bandwidth, CHECK, Estimator, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
 use photonlab_scene::{Ray, SurfacePoint, World};
@@ -17,6 +17,7 @@ use crate::{
 };
 
 /// Looks into one pass's light.
+#[derive(Clone, Copy)]
 pub(crate) struct Look<'p, const C: usize> {
     pub(crate) world: &'p World,
     pub(crate) optics: &'p Optics<C>,
@@ -27,6 +28,10 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) pass: u32,
     /// Points per cell in this pass.
     pub(crate) samples: u64,
+    /// Photons of a nearest-photon estimate.
+    pub(crate) k: usize,
+    /// Of so many points one tells the bias of its estimate.
+    pub(crate) told_of: u64,
     /// What the weight of each cell's points needs against rays from point lamps.
     pub(crate) shares: &'p [f64],
     /// Caustic light that is counted in cells.
@@ -166,7 +171,7 @@ impl<const C: usize> Look<'_, C> {
                 }
                 Method::Bins => Light::default(),
                 Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
-                    let mut one = self.read_map(at, &sight, used, seed.radius, scratch);
+                    let mut one = self.read_map(at, &sight, used, (seed.radius, self.told(seed.sample)), scratch);
                     if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
                         let xi = [stream.next(), stream.next(), stream.next()];
                         let direct = sample_direct(self.world, self.optics, at, &sight, xi)
@@ -183,13 +188,26 @@ impl<const C: usize> Look<'_, C> {
         light.over(f64::from(rays))
     }
 
-    /// The density estimate at the point itself.
-    fn read_map(&self, at: &SurfacePoint, sight: &Sight<C>, used: u32, radius: f64, scratch: &mut Scratch) -> Light<C> {
+    /// How much the bias counts that a sample tells; zero if it tells none. The mean over all samples is 1.
+    fn told(&self, sample: u64) -> f64 {
+        let telling = self.samples.div_ceil(self.told_of);
+        if sample.is_multiple_of(self.told_of) { self.samples as f64 / telling as f64 } else { 0.0 }
+    }
+
+    /// The density estimate at the point itself, of which the bias counts `told` times.
+    pub(crate) fn read_map(
+        &self,
+        at: &SurfacePoint,
+        sight: &Sight<C>,
+        used: u32,
+        (radius, told): (f64, f64),
+        scratch: &mut Scratch,
+    ) -> Light<C> {
         let Some(map) = &self.maps.surface else {
             return Light::default();
         };
         let bandwidth = match self.settings.method {
-            Method::Nearest { k } => Bandwidth::Nearest { k, max_radius: f64::INFINITY },
+            Method::Nearest { .. } => Bandwidth::Nearest { k: self.k, max_radius: f64::INFINITY },
             _ => Bandwidth::Radius(radius),
         };
         let tests = Tests {
@@ -197,19 +215,16 @@ impl<const C: usize> Look<'_, C> {
             ..Tests::default()
         };
         let place = Place { world: self.world, optics: self.optics, at, sight };
-        let found = place.estimate(map, bandwidth, self.settings.estimator, &tests, scratch);
-        let reach = match bandwidth {
-            Bandwidth::Nearest { .. } => found.radius,
-            Bandwidth::Radius(radius) => CHECK * radius,
-        };
-        let astray = !found.remedied && self.world.ball_leaves_surface(at, reach);
+        let estimator = Estimator { tells_bias: told > 0.0, ..self.settings.estimator };
+        let found = place.estimate(map, bandwidth, estimator, &tests, scratch);
+        let astray = !found.remedied && self.world.ball_leaves_surface(at, CHECK * found.radius);
         let unresolved = found.photons > 0 && astray;
         let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
         let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
         let noise = brightness * brightness * counted;
         Light {
             irradiance: found.irradiance,
-            bias: found.bias,
+            bias: found.bias * told,
             noise,
             noise_of_bias: noise * self.settings.estimator.area.noise_of_bias(found.remedied),
             // A linear fit may read less than nothing, which is no less uncertain.

@@ -14,7 +14,7 @@ use crate::{Cell, Method, ReadError, Settings, caustic_cells::CausticCells};
 /// the disc and its bias stay small.
 const FINAL_GATHER_COUNT: usize = 16;
 /// The same where the map is read at the point itself.
-const DIRECT_VIEW_COUNT: usize = 50;
+pub(crate) const DIRECT_VIEW_COUNT: usize = 50;
 /// The same in the caustic map.
 const CAUSTIC_COUNT: usize = 32;
 /// Photons that a cylinder around a gather ray holds on average along a free path: fewer still, for the bias and the cost of a
@@ -157,7 +157,7 @@ impl<const C: usize> PassMaps<C> {
         let is_caustic = |class| class == PathClass::Caustic;
         let volume_caustic = of_volume(needs.in_scattering && final_gather && needs.caustic, &is_caustic)?;
         let count = match settings.method {
-            Method::Nearest { k } => k,
+            Method::Nearest { k } => k.unwrap_or(DIRECT_VIEW_COUNT),
             Method::FinalGather { .. } => BEAM_COUNT,
             Method::Radius { .. } | Method::Adaptive | Method::Path | Method::Bins => DIRECT_VIEW_COUNT,
         };

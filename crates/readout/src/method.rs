@@ -8,8 +8,8 @@ use photonlab_trace::{Classes, Limits};
 pub enum Method {
     /// From the map at the point: the k nearest photons.
     Nearest {
-        /// Photons, at least 2.
-        k: usize,
+        /// Photons, at least 2; `None` takes it from the photons of the first pass and lets it shrink from pass to pass.
+        k: Option<usize>,
     },
     /// From the map at the point: all photons in a ball.
     Radius {

@@ -13,8 +13,8 @@ const MISSING_AT_MOST: f64 = 3.0;
 /// This share of the bias's own confidence interval is added to its size. With noise s of the value and s_b of the bias, their
 /// correlation c, and a true bias far from zero, a reading is missed on one side alone, where the value's noise less the bias's
 /// is beyond t (s + share s_b): 5 % of the normal distribution at 95 % need 0.84 sqrt(s^2 + s_b^2 - 2 c s s_b) of that sum. A
-/// disc's check has s_b = 0.29 s and c = -0.87, one at an edge 0.87 s and -0.87, that of the k nearest 2 s and 0: shares of 0.20, 0.59
-/// and 0.44.
+/// disc's check has s_b = 0.29 s and c = -0.87, one at an edge 0.87 s and -0.87: shares of 0.20 and 0.59. One of four samples tells it: where
+/// four samples of a cell share no photon s_b is twice that and c half, and the shares are 0.24 and 0.56.
 const OF_BIAS_NOISE: f64 = 0.6;
 
 /// One cell's values over the passes.

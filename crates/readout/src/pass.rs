@@ -11,19 +11,23 @@ use crate::{
     Cell, Direct, Method, ReadError, Schedule, Session, Source,
     bins::Bins,
     look::{Look, Sample},
-    maps::PassMaps,
+    maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
     probe::{probe, shares},
     run::Run,
     session::passes_at_hand,
     trace_pass,
 };
 
-/// Fewer cells than this do not tune the one radius of all their passes: it would go with each run's photons, and so would a bias that
-/// the passes' spread does not show.
-const FEWEST_TO_TUNE: usize = 256;
-
-/// Passes for which a radius is tuned where nobody says how many there will be.
+/// Passes for which a radius is tuned where nobody says how many there will be, or more: a run that its error ends has no fewer, so the
+/// command that spells its passes out gives its bits.
 const USUAL_PASSES: u64 = 16;
+
+/// Of so many samples of a cell in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
+/// noise is the smaller part of the error bar.
+const TOLD_OF: u64 = 4;
+
+/// Photons of a nearest-photon estimate at least.
+const FEWEST_NEAREST: f64 = 8.0;
 
 /// Samples that one task takes of one cell.
 const BLOCK: u64 = 256;
@@ -45,7 +49,7 @@ impl<const C: usize> Session<'_, C> {
         let maps = self.maps(run, cells, optics, number, schedule, source)?;
         let samples = schedule.samples(number);
         let shares = shares(self.world, &optics.lamps, cells);
-        let look = Look {
+        let mut look = Look {
             world: self.world,
             optics,
             settings: &self.settings,
@@ -53,23 +57,29 @@ impl<const C: usize> Session<'_, C> {
             looks_around: self.looks_around(),
             pass: number as u32,
             samples,
+            k: DIRECT_VIEW_COUNT,
+            // The radii of the adaptive method rest on what each sample tells.
+            told_of: if self.settings.method == Method::Adaptive { 1 } else { TOLD_OF },
             shares: &shares,
             caustics: &maps.in_cells,
         };
-        let is_tuned = match self.settings.method {
-            Method::Radius { radius: None } => cells.len() >= FEWEST_TO_TUNE,
-            Method::Adaptive => true,
-            _ => false,
-        };
+        let is_tuned = matches!(
+            self.settings.method,
+            Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive
+        );
         let surface_radius = match &maps.surface {
-            Some(_) if number == 0 && is_tuned => {
-                let passes = passes_at_hand(schedule, source).unwrap_or(USUAL_PASSES);
-                run.common = self.tuned_radius(&look, cells, maps.surface_radius, passes);
+            Some(map) if number == 0 && is_tuned => {
+                let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
+                run.common = self.tuned_radius(&look, map, cells, maps.surface_radius, passes);
+                run.k = Some(run.common.photons);
                 run.radius += run.common.radius - maps.surface_radius;
                 *run.radii.surface.insert(run.common.radius)
             }
             _ => maps.surface_radius,
         };
+        if let Method::Nearest { k } = self.settings.method {
+            look.k = k.unwrap_or_else(|| shrunken(run.k, number));
+        }
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
         let blocks = samples.div_ceil(BLOCK);
         let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
@@ -193,4 +203,12 @@ impl<const C: usize> Session<'_, C> {
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
     }
+}
+
+/// Photons of a nearest-photon estimate, as many as were chosen in the first pass or fewer in later ones: the squared radius shrinks as
+/// that of a fixed radius does.
+fn shrunken(first: Option<f64>, number: u64) -> usize {
+    let first = first.unwrap_or(DIRECT_VIEW_COUNT as f64);
+    let now = first * ((number + 1) as f64).powf(-2.0 * SHRINK);
+    now.max(FEWEST_NEAREST.min(first)).round().max(2.0) as usize
 }

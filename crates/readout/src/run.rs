@@ -17,8 +17,10 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) radii: Radii,
     /// Each cell's own radius, for [`Method::Adaptive`].
     pub(crate) of_cells: Vec<CellRadius>,
-    /// What all cells have shown in the first pass, for it and [`Method::Radius`].
+    /// What all cells have shown in the first pass, for it and other direct views that nobody has tuned.
     pub(crate) common: Common,
+    /// Photons of a nearest-photon estimate in the first pass, if the run has chosen them.
+    pub(crate) k: Option<f64>,
     pub(crate) radius: f64,
     pub(crate) photons: u64,
     pub(crate) passes: u64,
@@ -36,6 +38,7 @@ impl<const C: usize> Run<C> {
             radii: Radii::default(),
             of_cells: vec![CellRadius::default(); cells],
             common: Common::default(),
+            k: None,
             radius: 0.0,
             photons: 0,
             passes: 0,

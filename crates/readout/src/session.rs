@@ -196,7 +196,7 @@ impl<const C: usize> Session<'_, C> {
         let Some(target) = target else { return false };
         let shrinks = match self.settings.method {
             Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
-            Method::Nearest { .. } => false,
+            Method::Nearest { k } => k.is_none(),
             Method::Adaptive | Method::Path | Method::Bins => true,
         };
         // What shrinks is given more passes before it is given up.

@@ -2,14 +2,26 @@
 
 use std::f64::consts::PI;
 
+use glam::DVec3;
 use photonlab_final_gather::Light;
-use photonlab_gather::{CHECK, Scratch};
+use photonlab_gather::{CHECK, PhotonMap, Scratch};
+use photonlab_sampling::Sight;
+use photonlab_scene::{Ray, SurfacePoint};
 use rayon::prelude::*;
 
-use crate::{Cell, ErrorOver, Session, Target, adaptive::Common, look::Look, maps::SHRINK};
+use crate::{
+    Cell, ErrorOver, Session, Target,
+    adaptive::Common,
+    look::Look,
+    maps::{DIRECT_VIEW_COUNT, SHRINK},
+};
 
 /// Points that are looked at, spread over the cells; of more cells, some.
 const POINTS: usize = 4096;
+/// Fewer cells than this are not looked at themselves.
+const FEWEST_CELLS: usize = 256;
+/// A photon's surface is sought from so far, over the scene's size: its place is known to some 1e-7.
+const AWAY: f64 = 1e-5;
 /// Looks at most, each at twice the radius.
 const LOOKS: usize = 8;
 /// No radius holds more photons than this on average: beyond, time grows and little is gained.
@@ -39,6 +51,21 @@ struct Seen {
 }
 
 impl Seen {
+    /// Of the sum of samples at some points of one cell, which is the mean of some independent balls.
+    fn new<const C: usize>(sum: &Light<C>, points: f64, balls: f64) -> Self {
+        let mean = sum.over(points);
+        let bias = mean.bias.0.iter().sum::<f64>() / C as f64;
+        Self {
+            bias_squared: bias * bias,
+            of_noise: mean.noise_of_bias / balls.min(points),
+            variance: mean.noise / balls,
+            photons: sum.photons,
+            reads: sum.reads,
+            astray: sum.astray,
+            cells: 1.0,
+        }
+    }
+
     /// Share of the balls that reach over edges.
     fn share_astray(&self) -> f64 {
         self.astray / self.reads.max(1.0)
@@ -74,15 +101,35 @@ fn widening(passes: u64, power: f64) -> f64 {
     (variance / (bias * bias)).powf(0.5 / (power + 1.0))
 }
 
+/// Where balls are looked at.
+enum Places<'c, const C: usize> {
+    /// Where the cells read.
+    Cells(&'c [Cell]),
+    /// Where photons lie, all over the scene: of few cells each run's own photons would choose the radius of all its passes, and so a
+    /// bias that the passes' spread does not show.
+    Photons(Vec<(SurfacePoint, Sight<C>)>),
+}
+
 impl<const C: usize> Session<'_, C> {
     /// The radius of the first pass with which the sum over cells of the squared error of `passes` passes is least, if
     /// their radii shrink as pass^(-1/6). With one pass's variances `v / r^2` and biases `b r^p` that is where
-    /// `v / (passes r^2) = p b^2 r^(2 p)`. Both are looked at with balls of growing radii, until the bias is heard above its own noise,
+    /// `v / (passes r^2) = p b^2 r^(2 p)`. For the nearest photons r^2 stands for their number. Both are looked at with balls of growing radii, until the bias is heard above its own noise,
     /// and taken from there. All cells have a part in it, so that it hardly depends on any one's photons.
-    pub(crate) fn tuned_radius(&self, look: &Look<'_, C>, cells: &[Cell], first: f64, passes: u64) -> Common {
-        let nearest = self.see(look, cells, 0.5 * first);
-        let (mut radius, mut before, mut seen) = (first, nearest, self.see(look, cells, first));
-        let fewest_astray = nearest.share_astray();
+    pub(crate) fn tuned_radius(
+        &self,
+        look: &Look<'_, C>,
+        map: &PhotonMap<C>,
+        cells: &[Cell],
+        first: f64,
+        passes: u64,
+    ) -> Common {
+        let places = if cells.len() >= FEWEST_CELLS { Places::Cells(cells) } else { self.where_photons_lie(map) };
+        // Balls each of which tells its bias: of one radius, or of the photons that such a ball holds where photons are.
+        let photons_in = |radius: f64| DIRECT_VIEW_COUNT as f64 * (radius / first).powi(2);
+        let at = |radius| Look { told_of: 1, k: (photons_in(radius).round() as usize).max(2), ..*look };
+        let see = |radius| self.see(&at(radius), &places, radius);
+        let (mut radius, mut before, mut seen) = (first, see(0.5 * first), see(first));
+        let astray = |radius| self.see(&at(radius), &Places::Cells(cells), radius).share_astray();
         for _ in 0..LOOKS {
             let photons = seen.photons / seen.reads.max(1.0);
             let may_grow = 4.0 * photons <= MOST_PHOTONS && 2.0 * radius <= self.largest_radius();
@@ -90,10 +137,10 @@ impl<const C: usize> Session<'_, C> {
                 break;
             }
             radius *= 2.0;
-            (before, seen) = (seen, self.see(look, cells, radius));
+            (before, seen) = (seen, see(radius));
         }
         if seen.variance <= 0.0 {
-            return Common { radius: first, bend_squared: 0.0 };
+            return Common { radius: first, photons: DIRECT_VIEW_COUNT as f64, bend_squared: 0.0 };
         }
         let power = seen.growth_since(&before);
         let squared = seen.heard().max(LEFT * seen.of_noise);
@@ -103,48 +150,23 @@ impl<const C: usize> Session<'_, C> {
         let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt();
         let last = (radius * best.powf(0.5 / (power + 1.0)).min(room)).min(self.largest_radius().max(first));
         let mut widest = last * widening(passes, power);
-        while widest > first && self.goes_astray(&self.see(look, cells, widest), fewest_astray) {
-            widest *= 0.8;
+        // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
+        if self.error_over == ErrorOver::Worst {
+            let fewest = astray(0.5 * first);
+            while widest > first && astray(widest) > fewest + ASTRAY {
+                widest *= 0.8;
+            }
         }
-        Common { radius: widest, bend_squared: squared / (seen.cells * radius.powi(4)) }
-    }
-
-    /// A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
-    fn goes_astray(&self, seen: &Seen, fewest: f64) -> bool {
-        self.error_over == ErrorOver::Worst && seen.share_astray() > fewest + ASTRAY
+        Common { radius: widest, photons: photons_in(widest), bend_squared: squared / (seen.cells * radius.powi(4)) }
     }
 
     /// What balls of one radius show.
-    fn see(&self, look: &Look<'_, C>, cells: &[Cell], radius: f64) -> Seen {
-        let step = cells.len().div_ceil(POINTS).max(1);
-        let points = (POINTS / cells.len().max(1)).clamp(1, look.samples as usize);
-        let of_cells: Vec<Seen> = (0..cells.len())
-            .into_par_iter()
-            .step_by(step)
-            .map_init(Scratch::default, |scratch, number| {
-                let (cell, shift) = (&cells[number], look.shift(number));
-                let mut light = Light::default();
-                for sample in 0..points as u64 {
-                    light.add(&look.sample(cell, number, sample, &shift, radius, scratch).light);
-                }
-                let Light { photons, reads, astray, .. } = light;
-                let light = light.over(points as f64);
-                let bias = light.bias.0.iter().sum::<f64>() / C as f64;
-                // A cell wider than the ball has the mean of several balls, whose noise is each other's only in part.
-                let balls = (self.area(cell) / (PI * radius * radius)).max(1.0);
-                let of_noise = light.noise_of_bias / balls.min(points as f64);
-                Seen {
-                    bias_squared: bias * bias,
-                    of_noise,
-                    variance: light.noise / balls,
-                    photons,
-                    reads,
-                    astray,
-                    cells: 1.0,
-                }
-            })
-            .collect();
-        of_cells.iter().fold(Seen::default(), |sum, one| Seen {
+    fn see(&self, look: &Look<'_, C>, places: &Places<'_, C>, radius: f64) -> Seen {
+        let seen = match places {
+            Places::Cells(cells) => self.see_in_cells(look, cells, radius),
+            Places::Photons(points) => see_at(look, points, radius),
+        };
+        seen.iter().fold(Seen::default(), |sum, one| Seen {
             bias_squared: sum.bias_squared + one.bias_squared,
             of_noise: sum.of_noise + one.of_noise,
             variance: sum.variance + one.variance,
@@ -155,6 +177,40 @@ impl<const C: usize> Session<'_, C> {
         })
     }
 
+    fn see_in_cells(&self, look: &Look<'_, C>, cells: &[Cell], radius: f64) -> Vec<Seen> {
+        let step = cells.len().div_ceil(POINTS).max(1);
+        let points = (POINTS / cells.len().max(1)).clamp(1, look.samples as usize);
+        (0..cells.len())
+            .into_par_iter()
+            .step_by(step)
+            .map_init(Scratch::default, |scratch, number| {
+                let (cell, shift) = (&cells[number], look.shift(number));
+                let mut light = Light::default();
+                for sample in 0..points as u64 {
+                    light.add(&look.sample(cell, number, sample, &shift, radius, scratch).light);
+                }
+                // A cell wider than the ball has the mean of several balls, whose noise is each other's only in part.
+                let balls = (self.area(cell) / (PI * radius * radius)).max(1.0);
+                Seen::new(&light, points as f64, balls)
+            })
+            .collect()
+    }
+
+    /// Points of the scene where photons lie, spread evenly through the map.
+    fn where_photons_lie(&self, map: &PhotonMap<C>) -> Places<'static, C> {
+        let (low, high) = self.world.bounds();
+        let away = AWAY * (high - low).length();
+        let place = |index: usize| {
+            let normal = DVec3::from(map.tree().payloads()[index].normal.unpack().map(f64::from));
+            let at = self.world.middle() + DVec3::from(map.tree().point(index).map(f64::from));
+            let hit = self.world.cast(&Ray::new(at + away * normal, -normal), None, 2.0 * away)?;
+            let sight = Sight::meter(hit.facing_normal(), None);
+            (hit.facing_normal().dot(normal) > 0.5).then_some((hit.point, sight))
+        };
+        let step = (map.len() / POINTS).max(1);
+        Places::Photons((0..map.len()).step_by(step).filter_map(place).collect())
+    }
+
     /// Square metres over which a cell's reading is a mean; zero where that is not known, or a point.
     fn area(&self, cell: &Cell) -> f64 {
         match cell.target {
@@ -162,6 +218,14 @@ impl<const C: usize> Session<'_, C> {
             _ => 0.0,
         }
     }
+}
+
+/// What balls of one radius show at some points.
+fn see_at<const C: usize>(look: &Look<'_, C>, points: &[(SurfacePoint, Sight<C>)], radius: f64) -> Vec<Seen> {
+    let see = |scratch: &mut Scratch, (point, sight): &(SurfacePoint, Sight<C>)| {
+        Seen::new(&look.read_map(point, sight, 0, (radius, 1.0), scratch), 1.0, 1.0)
+    };
+    points.par_iter().map_init(Scratch::default, see).collect()
 }
 
 #[cfg(test)]

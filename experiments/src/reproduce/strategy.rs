@@ -23,7 +23,7 @@ impl Strategy {
     pub(super) const NEAREST_DIRECT_VIEW: Strategy = Strategy {
         id: "nearest-direct-view",
         title: "nearest, all light from photons",
-        method: Method::Nearest { k: K },
+        method: Method::Nearest { k: Some(K) },
         direct: Direct::Photons,
     };
     /// The same with a fixed radius.
@@ -37,7 +37,7 @@ impl Strategy {
     pub(super) const NEAREST: Strategy = Strategy {
         id: "nearest",
         title: "nearest, direct light sampled",
-        method: Method::Nearest { k: K },
+        method: Method::Nearest { k: Some(K) },
         direct: Direct::Sampled,
     };
     /// Final gather.

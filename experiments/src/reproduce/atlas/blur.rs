@@ -19,7 +19,7 @@ const BALL: Bandwidth = Bandwidth::Radius(1.0);
 const REACH: f64 = 6.0;
 
 fn with_kernel(map: &PhotonMap<1>, x: f64, kernel: Kernel, scratch: &mut Scratch) -> f64 {
-    let estimator = Estimator { kernel, area: AreaModel::Disc };
+    let estimator = Estimator::new(kernel, AreaModel::Disc);
     map.gather(&facing_up([x, 0.0, 0.0]), BALL, estimator, &Tests::default(), scratch).irradiance[0]
 }
 

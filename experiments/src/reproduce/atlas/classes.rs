@@ -97,7 +97,7 @@ pub(super) fn shading_normals(part: &Part) -> anyhow::Result<Mode> {
             sight.normals.shading = towards(tilt);
             // The irradiance of the face is 1.
             let truth = light.dot(sight.normals.shading) / light.z;
-            let estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Disc };
+            let estimator = Estimator::new(Kernel::Disc, AreaModel::Disc);
             let plain = map.gather_among(&at, BALL, estimator, &NO_TEST, &OpenPlane, scratch).irradiance[0];
             let weighed = map.gather_among(&at, BALL, estimator, &NO_TEST, &Smooth(sight), scratch).irradiance[0];
             Ok([plain / truth, weighed / truth])

@@ -121,7 +121,7 @@ pub(super) fn slope(part: &Part) -> anyhow::Result<Mode> {
                 let at = Place::FreeEdge.query(t);
                 let around = ground.around(&at);
                 values.extend(areas.map(|area| {
-                    let (ball, estimator) = (Bandwidth::Radius(1.0), Estimator { kernel: Kernel::Disc, area });
+                    let (ball, estimator) = (Bandwidth::Radius(1.0), Estimator::new(Kernel::Disc, area));
                     let read = map.gather_among(&at, ball, estimator, &NO_TEST, &around, scratch);
                     read.irradiance[0] / irradiance(t)
                 }));

@@ -39,7 +39,7 @@ pub(super) fn receiver(part: &Part) -> anyhow::Result<Mode> {
             let mut field = square(photons, 1.0, stream);
             diffuse(&mut field, stream);
             let (map, at) = (map(field)?, facing_up([0.0; 3]));
-            let estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Disc };
+            let estimator = Estimator::new(Kernel::Disc, AreaModel::Disc);
             let ball = Bandwidth::Radius(1.0);
             let value = map.gather_among(&at, ball, estimator, &NO_TEST, &Lobe(exponent), scratch).irradiance[0];
             Ok([(value - 1.0).powi(2)])

@@ -18,7 +18,7 @@ pub(super) const NORMAL_TEST: Tests = Tests { normal: true, side: false, max_seg
 pub(super) const SIDE_TEST: Tests = Tests { normal: false, side: true, max_segments: None };
 
 /// Photons of irradiance 1 over what is inside the ball.
-pub(super) const CLIPPED: Estimator = Estimator { kernel: Kernel::Disc, area: AreaModel::Clipped };
+pub(super) const CLIPPED: Estimator = Estimator::new(Kernel::Disc, AreaModel::Clipped);
 
 /// Photons to the square metre if the disc of radius 1 m holds this many.
 pub(super) fn density(photons: f64) -> f64 {

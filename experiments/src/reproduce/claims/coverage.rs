@@ -29,13 +29,11 @@ const NOISE: f64 = 0.02;
 const SHORT: f64 = 0.01;
 /// Most of the median half-width over the RMS error.
 const WIDEST: f64 = 3.0;
-/// Photons of a nearest-photon estimate, as the command has it.
-const K: usize = 50;
 
 const METHODS: [(&str, Method); 5] = [
     ("final gather", Method::FinalGather { radius: None }),
     ("fixed radius", Method::Radius { radius: None }),
-    ("k nearest", Method::Nearest { k: K }),
+    ("k nearest", Method::Nearest { k: None }),
     ("path tracing", Method::Path),
     ("photons counted", Method::Bins),
 ];

@@ -144,7 +144,7 @@ fn readers(p: &Parameters) -> [Reader; 3] {
         },
         Reader {
             title: "direct view, k nearest",
-            method: Method::Nearest { k: p.k },
+            method: Method::Nearest { k: Some(p.k) },
             direct: Direct::Photons,
             law: METERS.map(|(_, at)| cube_law::nearest(&field, at, p.k as u32, paths).mean),
             tolerance: LAW_TOLERANCE,
