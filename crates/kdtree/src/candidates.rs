@@ -55,7 +55,8 @@ impl Candidates {
 
     #[cold]
     fn grow(&mut self) {
-        let room = (2 * self.len).max(256) + BLOCK;
+        // Whole blocks, for the last candidates are read as one.
+        let room = (2 * self.len).max(256).next_multiple_of(BLOCK) + BLOCK;
         self.distances.resize(room, 0.0);
         self.indices.resize(room, 0);
     }
@@ -184,6 +185,20 @@ mod tests {
             candidates.append::<Portable>(first * BLOCK, mask, lanes);
         }
         candidates
+    }
+
+    /// The last block is read whole, wherever the candidates end.
+    #[test]
+    fn any_number_of_candidates_can_be_selected_from() {
+        let values: Vec<f32> = (0..3000u16).map(|i| f32::from(i * 7 % 3000)).collect();
+        for count in 2..values.len() {
+            let mut candidates = Candidates::default();
+            for (first, value) in values[..count].iter().enumerate() {
+                candidates.append::<Portable>(first, 1, [*value; BLOCK]);
+            }
+            candidates.select::<Portable>(1, 1);
+            assert_eq!(candidates.len(), 1, "{count}");
+        }
     }
 
     proptest! {

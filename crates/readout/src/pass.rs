@@ -8,7 +8,7 @@ use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, Direct, Method, ReadError, Schedule, Session, Source,
+    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Source,
     bins::Bins,
     look::{Look, Sample},
     maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
@@ -22,7 +22,7 @@ use crate::{
 /// command that spells its passes out gives its bits.
 const USUAL_PASSES: u64 = 16;
 
-/// Of so many samples of a cell in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
+/// Of so many samples of a pixel in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
 /// noise is the smaller part of the error bar.
 const TOLD_OF: u64 = 4;
 
@@ -58,8 +58,7 @@ impl<const C: usize> Session<'_, C> {
             pass: number as u32,
             samples,
             k: DIRECT_VIEW_COUNT,
-            // The radii of the adaptive method rest on what each sample tells.
-            told_of: if self.settings.method == Method::Adaptive { 1 } else { TOLD_OF },
+            told_of: self.told_of(),
             shares: &shares,
             caustics: &maps.in_cells,
         };
@@ -123,6 +122,13 @@ impl<const C: usize> Session<'_, C> {
         run.passes += 1;
         run.samples += samples;
         Ok(())
+    }
+
+    /// Of so many samples in one pass one tells its bias: all do where every reading has an error bar to be signed, or radii rest on what
+    /// they tell.
+    fn told_of(&self) -> u64 {
+        let few = self.error_over == ErrorOver::Worst || self.settings.method == Method::Adaptive;
+        if few { 1 } else { TOLD_OF }
     }
 
     /// One pass of photons counted where they arrive.
