@@ -65,11 +65,10 @@ fn main() {
     let (mut scratch, mut found) = (Scratch::default(), Neighbours::default());
     let mut turn = 0;
     // As a run reads a map: one estimate of four tells its bias.
-    let mut gather = |at: &GatherPoint, bandwidth, kernel, edge: bool, told_of: u32| {
-        let area = if edge { AreaModel::Linear } else { AreaModel::Disc };
+    let mut gather = |at: &GatherPoint, bandwidth, kernel, area: AreaModel, told_of: u32| {
         turn += 1;
         let estimator = Estimator { tells_bias: turn % told_of == 0, ..Estimator::new(kernel, area) };
-        if edge {
+        if area != AreaModel::Disc {
             map.gather_among(at, bandwidth, estimator, &tests, &Edge, &mut scratch).irradiance[0]
         } else {
             map.gather(at, bandwidth, estimator, &tests, &mut scratch).irradiance[0]
@@ -86,7 +85,7 @@ fn main() {
         }
     };
     for (name, bandwidth) in [("radius", Bandwidth::Radius(radius)), ("nearest", nearest)] {
-        let mut best = [f64::INFINITY; 6];
+        let mut best = [f64::INFINITY; 7];
         for _ in 0..rounds {
             let mut time = |which: usize, one: &mut dyn FnMut(&GatherPoint) -> f64| {
                 let start = Instant::now();
@@ -96,19 +95,22 @@ fn main() {
                 best[which] = best[which].min(start.elapsed().as_secs_f64() / queries as f64);
             };
             time(0, &mut |at| bare(at, bandwidth));
-            time(1, &mut |at| gather(at, bandwidth, Kernel::Disc, false, 4));
-            time(2, &mut |at| gather(at, bandwidth, Kernel::Epanechnikov, false, 4));
-            time(3, &mut |at| gather(at, bandwidth, Kernel::Epanechnikov, true, 4));
-            time(4, &mut |at| gather(at, bandwidth, Kernel::Epanechnikov, false, 1));
-            time(5, &mut |at| gather(at, bandwidth, Kernel::Epanechnikov, true, 1));
+            let (disc, epanechnikov) = (Kernel::Disc, Kernel::Epanechnikov);
+            time(1, &mut |at| gather(at, bandwidth, disc, AreaModel::Disc, 4));
+            time(2, &mut |at| gather(at, bandwidth, epanechnikov, AreaModel::Disc, 4));
+            time(3, &mut |at| gather(at, bandwidth, epanechnikov, AreaModel::Clipped, 4));
+            time(4, &mut |at| gather(at, bandwidth, epanechnikov, AreaModel::Linear, 4));
+            time(5, &mut |at| gather(at, bandwidth, epanechnikov, AreaModel::Clipped, 1));
+            time(6, &mut |at| gather(at, bandwidth, epanechnikov, AreaModel::Linear, 1));
         }
         let rows = [
             "bare query",
             "disc, one of four tells its bias",
             "Epanechnikov, one of four",
-            "linear fit, one of four",
-            "Epanechnikov, all tell it",
-            "linear fit, all tell it",
+            "clipped at an edge, one of four",
+            "linear fit there, one of four",
+            "clipped there, all tell it",
+            "linear fit there, all tell it",
         ];
         for (what, seconds) in rows.iter().zip(best) {
             println!("{name:8} {what:32} {:9.0} per second, {:5.2} of bare", 1.0 / seconds, best[0] / seconds);

@@ -1,67 +1,13 @@
 //! Sums over the photons in a ball and in a wider one, a block of sixteen at a time.
 
 use photonlab_kdtree::{BLOCK, KdTree, VisitBlock};
-use photonlab_photometry::{Colour, PackedDirection, Photon};
+use photonlab_photometry::{Colour, Photon};
 
 use crate::{
-    CHECK, Estimator, GatherPoint, Kernel, SAME_SURFACE, Surroundings, Tests,
+    CHECK, Estimator, Kernel, Surroundings,
+    accepted::{Accepted, padded_block},
     boundary::{Correction, Corrections},
 };
-
-/// Which photons count at a point.
-#[derive(Clone, Copy)]
-pub(crate) struct Accepted<'a> {
-    pub(crate) at: &'a GatherPoint,
-    pub(crate) tests: &'a Tests,
-}
-
-impl Accepted<'_> {
-    /// Whether a photon counts.
-    #[inline(always)]
-    pub(crate) fn has<const C: usize>(&self, photon: &Photon<C>) -> bool {
-        self.is_here(photon.normal.along(), photon.direction.along()) && self.is_short(photon)
-    }
-
-    /// Whether it lies on the point's surface and came to the point's side of it.
-    #[inline(always)]
-    fn is_here(&self, normal: [f32; 3], direction: [f32; 3]) -> bool {
-        let dot = |a: [f32; 3]| a[0] * self.at.normal[0] + a[1] * self.at.normal[1] + a[2] * self.at.normal[2];
-        let cosine = dot(normal);
-        let length_squared = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
-        let same = (cosine > 0.0) & (cosine * cosine >= SAME_SURFACE * SAME_SURFACE * length_squared);
-        let arrives = dot(direction) < 0.0;
-        let lies_here = same | !self.tests.normal;
-        let came_here = arrives | !self.tests.side;
-        lies_here & came_here
-    }
-
-    #[inline(always)]
-    fn is_short<const C: usize>(&self, photon: &Photon<C>) -> bool {
-        self.tests.max_segments.is_none_or(|max| u32::from(photon.segments) <= max)
-    }
-
-    /// The photons of a block that count, as bits.
-    #[inline(always)]
-    fn of_block<const C: usize>(&self, photons: &[Photon<C>; BLOCK]) -> u16 {
-        // Copied first: of records in a row no vectors are made.
-        let (mut normals, mut directions) = ([0; BLOCK], [0; BLOCK]);
-        for lane in 0..BLOCK {
-            normals[lane] = photons[lane].normal.to_bits();
-            directions[lane] = photons[lane].direction.to_bits();
-        }
-        let mut bits = [0u32; BLOCK];
-        for lane in 0..BLOCK {
-            let [normal, direction] = [normals[lane], directions[lane]].map(PackedDirection::from_bits);
-            bits[lane] = u32::from(self.is_here(normal.along(), direction.along())) << lane;
-        }
-        let here = bits.iter().fold(0, |all, bit| all | bit) as u16;
-        let long = |lane: &usize| !self.is_short(&photons[*lane]);
-        match self.tests.max_segments {
-            None => here,
-            Some(_) => (0..BLOCK).filter(long).fold(here, |all, lane| all & !(1 << lane)),
-        }
-    }
-}
 
 /// The sums may visit this much more than the ball, so that rounding leaves none of its photons out.
 const MARGIN: f64 = 1.0 + 1e-6;
@@ -69,7 +15,7 @@ const MARGIN: f64 = 1.0 + 1e-6;
 /// What is summed over the photons that count in a ball, and in one of [`CHECK`] times the radius where a bias is to be told.
 pub(crate) struct BallSum<'a, const C: usize, S> {
     pub(crate) tree: &'a KdTree<Photon<C>>,
-    pub(crate) accepted: Accepted<'a>,
+    pub(crate) accepted: Accepted<'a, C>,
     pub(crate) around: &'a S,
     pub(crate) radius: f64,
     pub(crate) estimator: Estimator,
@@ -95,7 +41,7 @@ pub(crate) struct Sums<const C: usize> {
 impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
     pub(crate) fn new(
         tree: &'a KdTree<Photon<C>>,
-        accepted: Accepted<'a>,
+        accepted: Accepted<'a, C>,
         around: &'a S,
         (radius, estimator): (f64, Estimator),
         corrections: Option<Corrections>,
@@ -118,12 +64,24 @@ impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
     /// How much each photon counts in a kernel's sum, at squared distances over that of a radius.
     #[inline(always)]
     fn corrected(&self, of: &Correction, first: usize, radius: f64, shares: &[f64; BLOCK]) -> [f64; BLOCK] {
+        let (mut weights, constant) = (self.estimator.kernel.weights(shares), of.at([0.0; 3]));
+        if of.is_constant() {
+            for weight in &mut weights {
+                *weight *= constant;
+            }
+            return weights;
+        }
         let axes = self.tree.block_points(first);
-        let mut weights = self.estimator.kernel.weights(shares);
-        let per_radius = 1.0 / radius;
+        let slope = of.slope_over(radius);
+        let here = self.accepted.at.position;
+        let mut slopes = [0.0f32; BLOCK];
+        for axis in 0..3 {
+            for lane in 0..BLOCK {
+                slopes[lane] += slope[axis] * (axes[axis][lane] - here[axis]);
+            }
+        }
         for lane in 0..BLOCK {
-            let along = |axis: usize| f64::from(axes[axis][lane] - self.accepted.at.position[axis]) * per_radius;
-            weights[lane] *= of.at([along(0), along(1), along(2)]);
+            weights[lane] *= constant + f64::from(slopes[lane]);
         }
         weights
     }
@@ -132,19 +90,18 @@ impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
 impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_, C, S> {
     #[inline(always)]
     fn visit(&mut self, first: usize, mask: u16, distances: &[f32; BLOCK]) {
-        let payloads = &self.tree.payloads()[first..];
-        let padded;
-        let photons = match payloads.first_chunk() {
-            Some(photons) => photons,
-            None => {
-                padded = std::array::from_fn(|lane| payloads[lane.min(payloads.len() - 1)]);
-                &padded
-            }
-        };
-        let counted = self.accepted.of_block(photons) & mask;
+        let counted = self.accepted.in_block(first, mask);
         if counted == 0 {
             return;
         }
+        let padded;
+        let photons = match self.accepted.photons[first..].first_chunk() {
+            Some(photons) => photons,
+            None => {
+                padded = padded_block(&self.accepted.photons[first..]);
+                &padded
+            }
+        };
         let limit = (self.radius * self.radius) as f32;
         let (mut shares, mut near, mut all) = ([0.0; BLOCK], [0.0; BLOCK], [0.0; BLOCK]);
         let mut inside = [0u32; BLOCK];

@@ -88,6 +88,18 @@ impl Correction {
         Some(Self { constant: spread / determinant, slope })
     }
 
+    /// True if it is the same everywhere.
+    #[inline(always)]
+    pub(crate) fn is_constant(&self) -> bool {
+        self.slope == [0.0; 3]
+    }
+
+    /// Its slope over lengths in metres, of a ball of a radius.
+    #[inline(always)]
+    pub(crate) fn slope_over(&self, radius: f64) -> [f32; 3] {
+        self.slope.map(|slope| (slope / radius) as f32)
+    }
+
     /// The factor at an offset in radii.
     #[inline(always)]
     pub(crate) fn at(&self, offset: [f64; 3]) -> f64 {

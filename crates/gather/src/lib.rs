@@ -5,10 +5,12 @@
 //! caller's to judge: it knows the geometry.
 #![forbid(unsafe_code)]
 
+mod accepted;
 mod ball_sum;
 mod bandwidth;
 mod boundary;
 mod estimate;
+mod facing;
 mod kernel;
 mod map;
 mod volume;

@@ -5,8 +5,10 @@ use photonlab_photometry::{Colour, Photon};
 
 use crate::{
     Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests,
-    ball_sum::{Accepted, BallSum},
+    accepted::Accepted,
+    ball_sum::BallSum,
     boundary::{Correction, Corrections},
+    facing::Facing,
 };
 
 /// Cosine of the largest angle between normals that count as one surface.
@@ -19,6 +21,7 @@ pub const CHECK: f64 = 2.0;
 /// Photons ready for queries; immutable.
 pub struct PhotonMap<const C: usize> {
     tree: KdTree<Photon<C>>,
+    facing: Facing,
 }
 
 /// Where to gather.
@@ -45,7 +48,8 @@ impl Scratch {
 impl<const C: usize> PhotonMap<C> {
     /// Builds the map.
     pub fn build(positions: Vec<[f32; 3]>, photons: Vec<Photon<C>>, rule: SplitRule) -> Result<Self, BuildError> {
-        Ok(Self { tree: KdTree::build(positions, photons, rule)? })
+        let tree = KdTree::build(positions, photons, rule)?;
+        Ok(Self { facing: Facing::of(tree.payloads()), tree })
     }
 
     /// Stored photons.
@@ -93,6 +97,10 @@ impl<const C: usize> PhotonMap<C> {
         }
     }
 
+    fn accepted<'a>(&'a self, at: &'a GatherPoint, tests: &'a Tests) -> Accepted<'a, C> {
+        Accepted::new(at, tests, self.tree.payloads(), &self.facing)
+    }
+
     /// All photons in the closed ball over its area (catalogue A1): unbiased where the irradiance is even, with any kernel.
     fn within(
         &self,
@@ -103,8 +111,7 @@ impl<const C: usize> PhotonMap<C> {
         around: &impl Surroundings<Photon<C>>,
     ) -> Estimate<C> {
         let corrections = Correction::pair(estimator, at.normal, [CHECK * radius, radius], around);
-        let accepted = Accepted { at, tests };
-        let mut sum = BallSum::new(&self.tree, accepted, around, (radius, estimator), corrections);
+        let mut sum = BallSum::new(&self.tree, self.accepted(at, tests), around, (radius, estimator), corrections);
         let (sums, photons) = (sum.sums(), sum.photons);
         let per_area = 1.0 / estimator.area.area(radius * radius);
         let irradiance = sums.weighed * per_area;
@@ -134,7 +141,9 @@ impl<const C: usize> PhotonMap<C> {
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         let found = &mut scratch.found;
-        self.tree.nearest_accepted(at.position, k, max_radius as f32, |photon| counts(photon, at, tests), found);
+        let accepted = self.accepted(at, tests);
+        let in_block = |first, mask| accepted.in_block(first, mask);
+        self.tree.nearest_of_blocks(at.position, k, max_radius as f32, in_block, found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
             return self.sum(at, (found, None), max_radius * max_radius, estimator, tests, around);
@@ -176,7 +185,7 @@ impl<const C: usize> PhotonMap<C> {
         let irradiance = weighed * per_area;
         let mut told = Colour::ZERO;
         if estimator.tells_bias {
-            let accepted = Accepted { at, tests };
+            let accepted = self.accepted(at, tests);
             let mut wide = BallSum::new(&self.tree, accepted, around, (radius, estimator), corrections).sums().wide;
             if let Some(last) = last {
                 let of_rim = corrections.map_or(1.0, |pair| {
@@ -204,13 +213,9 @@ impl<const C: usize> PhotonMap<C> {
                     position: self.tree.point(index),
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                self.tree.nearest_accepted(
-                    at.position,
-                    k,
-                    f32::INFINITY,
-                    |p| counts(p, &at, &tests),
-                    &mut scratch.found,
-                );
+                let accepted = self.accepted(&at, &tests);
+                let in_block = |first, mask| accepted.in_block(first, mask);
+                self.tree.nearest_of_blocks(at.position, k, f32::INFINITY, in_block, &mut scratch.found);
                 let full = scratch.found.len() == k;
                 scratch.found.farthest_squared().filter(|_| full).map(f32::sqrt)
             })
@@ -242,8 +247,4 @@ fn bias<const C: usize>(
 /// noise than the kernel itself would, whose photons near the rim say little.
 fn bias_over_disc(kernel: Kernel) -> f64 {
     kernel.second_moment() / Kernel::Disc.second_moment()
-}
-
-fn counts<const C: usize>(photon: &Photon<C>, at: &GatherPoint, tests: &Tests) -> bool {
-    Accepted { at, tests }.has(photon)
 }

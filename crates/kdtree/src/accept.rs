@@ -16,6 +16,16 @@ impl Accept for All {
     }
 }
 
+/// The caller is asked about a block's points together.
+pub(crate) struct InBlocks<A>(pub(crate) A);
+
+impl<A: FnMut(usize, u16) -> u16> Accept for InBlocks<A> {
+    #[inline(always)]
+    fn ask(&mut self, first: usize, mask: u16) -> u16 {
+        if mask == 0 { 0 } else { (self.0)(first, mask) & mask }
+    }
+}
+
 /// The caller is asked about each.
 pub(crate) struct Asked<'a, P, A>(pub(crate) &'a [P], pub(crate) A);
 

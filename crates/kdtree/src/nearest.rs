@@ -1,6 +1,6 @@
 //! The k nearest points, of all or of those that the caller accepts.
 
-use crate::accept::{Accept, All, Asked};
+use crate::accept::{Accept, All, Asked, InBlocks};
 use crate::block::{BLOCK, Block, lanes_in};
 use crate::candidates::Candidates;
 use crate::lanes::{Lanes, Task, dispatch};
@@ -122,6 +122,19 @@ impl<P: Copy + Send + Sync> KdTree<P> {
         found: &mut Neighbours,
     ) {
         self.nearest_metered(query, k, max_radius, &mut Asked(&self.payload, accept), found, &mut Unmetered);
+    }
+
+    /// The same, asking about the points of a block together: `accept` is told the tree index of the block's first point, a multiple of
+    /// [`BLOCK`], and the points in question as bits, of which it returns those that count.
+    pub fn nearest_of_blocks(
+        &self,
+        query: [f32; 3],
+        k: usize,
+        max_radius: f32,
+        accept: impl FnMut(usize, u16) -> u16,
+        found: &mut Neighbours,
+    ) {
+        self.nearest_metered(query, k, max_radius, &mut InBlocks(accept), found, &mut Unmetered);
     }
 
     /// [`nearest_accepted`](Self::nearest_accepted), telling what the walk cost.

@@ -1,6 +1,8 @@
 //! The obvious loops, and the comparison of a tree with them.
 
-use photonlab_kdtree::{EmptyCost, Instructions, KdTree, Neighbours, Reach, SplitRule, VisitCost, distance_squared};
+use photonlab_kdtree::{
+    BLOCK, EmptyCost, Instructions, KdTree, Neighbours, Reach, SplitRule, VisitCost, distance_squared,
+};
 
 /// The rules that every case is put through.
 pub(crate) const RULES: [SplitRule; 10] = [
@@ -116,6 +118,12 @@ fn assert_nearest(tree: &KdTree<usize>, points: &[[f32; 3]], query: [f32; 3], k:
     let fresh = check(&mut found);
     // Again, with the memory of this very answer, and with that of one that bounds too little.
     tree.nearest_accepted(query, k, radius, |&i| accept(i), &mut found);
+    assert_eq!(check(&mut found), fresh);
+    let in_block = |first: usize, mask: u16| {
+        let counts = |lane: usize| first + lane < tree.len() && accept(tree.payloads()[first + lane]);
+        (0..BLOCK).filter(|&lane| counts(lane)).fold(0, |all, lane| all | 1 << lane) & mask
+    };
+    tree.nearest_of_blocks(query, k, radius, in_block, &mut found);
     assert_eq!(check(&mut found), fresh);
     tree.nearest(query, k, f32::INFINITY, &mut found);
     tree.nearest_accepted(query, k, radius, |&i| accept(i), &mut found);
