@@ -51,6 +51,8 @@ impl Options {
             Some(AreaName::Sphere) => AreaModel::Sphere,
             Some(AreaName::Clipped) => AreaModel::Clipped,
             Some(AreaName::Linear) => AreaModel::Linear,
+            Some(AreaName::Flattened) => AreaModel::Flattened,
+            Some(AreaName::Visible) => AreaModel::Visible,
             Some(AreaName::Disc) => AreaModel::Disc,
             None => DEFAULT_ESTIMATOR.area,
         };

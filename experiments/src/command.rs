@@ -63,7 +63,8 @@ pub(crate) struct Options {
     /// Weight of a photon by its distance [default: disc].
     #[arg(long, value_enum)]
     pub(crate) kernel: Option<KernelName>,
-    /// What gathered flux is divided by: the disc, or the surface that is in the ball [default: clipped].
+    /// What gathered flux is divided by: the disc, the paper's sphere, the surface in the ball (clipped; linear takes a slope out too), the
+    /// disc with photons near the plane alone (flattened), or the surface that the point sees (visible; slow) [default: clipped].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
     /// Final-gather rays per point [default: 1].
@@ -245,6 +246,8 @@ pub(crate) enum AreaName {
     Sphere,
     Clipped,
     Linear,
+    Flattened,
+    Visible,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -44,6 +44,8 @@ pub(crate) fn fixed_command<const C: usize>(
             AreaModel::Sphere => "sphere",
             AreaModel::Clipped => "clipped",
             AreaModel::Linear => "linear",
+            AreaModel::Flattened => "flattened",
+            AreaModel::Visible => "visible",
         };
         option("area", area.into());
     }

@@ -33,6 +33,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("crease, nearest", 4),
     ("thin wall", 7),
     ("wall on a floor", 2),
+    ("wall on a floor, seen", 2),
     ("gather on a sphere", 3),
     ("point lamp", 1),
     ("cosine lamp", 2),

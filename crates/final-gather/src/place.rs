@@ -65,18 +65,37 @@ impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Aroun
     }
 
     fn inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
-        let Place { world, optics, at, sight } = self.place;
-        if !world.ball_leaves_surface(at, radius) {
-            return None;
-        }
-        let around = Neighbourhood {
+        let Place { world, optics, .. } = self.place;
+        let around = self.neighbourhood(radius)?;
+        surface_inside(world, &around, kernel, |primitive, front| optics.stores(world, primitive, front))
+    }
+
+    fn seen_inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
+        let Place { world, optics, .. } = self.place;
+        let around = self.neighbourhood(radius)?;
+        let stores = |primitive, front| optics.stores(world, primitive, front);
+        Some(for_a_map(&world.surface_seen(&around, &Weight(kernel), stores)))
+    }
+
+    fn is_seen(&self, position: [f32; 3], photon: &Photon<C>) -> bool {
+        let Place { world, at, sight, .. } = self.place;
+        let vector = |of: [f32; 3]| DVec3::from(of.map(f64::from));
+        let there = (world.middle() + vector(position), vector(photon.normal.unpack()));
+        world.see_each_other((at.position, sight.normals.geometric), there)
+    }
+}
+
+impl<const C: usize, W> Around<'_, C, W> {
+    /// The ball; `None` if it holds nothing but the point's own surface, without an end.
+    fn neighbourhood(&self, radius: f64) -> Option<Neighbourhood> {
+        let Place { world, at, sight, .. } = self.place;
+        world.ball_leaves_surface(at, radius).then(|| Neighbourhood {
             position: at.position,
             primitive: at.primitive,
             normal: sight.normals.geometric,
             radius,
             least_cosine: f64::from(SAME_SURFACE),
-        };
-        surface_inside(world, &around, kernel, |primitive, front| optics.stores(world, primitive, front))
+        })
     }
 }
 
@@ -88,9 +107,12 @@ pub fn surface_inside(
     kernel: Kernel,
     stores: impl Fn(u32, bool) -> bool,
 ) -> Option<Inside> {
-    let inside = world.surface_inside(around, &Weight(kernel), stores)?;
+    Some(for_a_map(&world.surface_inside(around, &Weight(kernel), stores)?))
+}
+
+fn for_a_map(inside: &photonlab_scene::Inside) -> Inside {
     let second = inside.second.to_cols_array_2d();
-    Some(Inside { area: inside.area, first: inside.first.to_array(), second, open: inside.open })
+    Inside { area: inside.area, first: inside.first.to_array(), second, open: inside.open }
 }
 
 /// A kernel as the scene's geometry takes it.

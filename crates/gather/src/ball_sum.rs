@@ -90,7 +90,10 @@ impl<'a, const C: usize, S: Surroundings<Photon<C>>> BallSum<'a, C, S> {
 impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_, C, S> {
     #[inline(always)]
     fn visit(&mut self, first: usize, mask: u16, distances: &[f32; BLOCK]) {
-        let counted = self.accepted.in_block(first, mask);
+        let mut counted = self.accepted.in_block(first, mask);
+        if self.estimator.area.hides() && self.corrections.is_some() {
+            counted = seen(self.tree, self.around, first, counted);
+        }
         if counted == 0 {
             return;
         }
@@ -143,6 +146,18 @@ impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_,
             self.weighed.add(photons, &product(&near, &kernel.weights(&shares)));
         }
     }
+}
+
+/// The photons of a block that a point sees, of those in question, as bits.
+pub(crate) fn seen<const C: usize>(
+    tree: &KdTree<Photon<C>>,
+    around: &impl Surroundings<Photon<C>>,
+    first: usize,
+    mask: u16,
+) -> u16 {
+    let is_seen = |lane: usize| around.is_seen(tree.point(first + lane), &tree.payloads()[first + lane]);
+    let lanes = (0..BLOCK).filter(|lane| mask >> lane & 1 != 0);
+    lanes.filter(|&lane| is_seen(lane)).fold(0, |bits, lane| bits | 1 << lane)
 }
 
 /// Lane by lane; zero where the first is, whatever the second: lanes without a point have no place.

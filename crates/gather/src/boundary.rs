@@ -49,7 +49,10 @@ impl Correction {
         radii: [f64; 2],
         around: &impl Surroundings<P>,
     ) -> Option<Corrections> {
-        let ask = |radius| around.inside(radius, estimator.kernel);
+        let kernel = estimator.kernel;
+        let ask = |radius| {
+            if estimator.area.hides() { around.seen_inside(radius, kernel) } else { around.inside(radius, kernel) }
+        };
         let wide = if estimator.area.asks() { ask(radii[0]) } else { None }?;
         let of = |inside: &Inside| Self::new(estimator.area, normal, inside);
         let narrow = ask(radii[1]);
@@ -64,8 +67,8 @@ impl Correction {
     fn new(area: AreaModel, normal: [f32; 3], inside: &Inside) -> Self {
         let clipped = Self { constant: inside.area.recip(), slope: [0.0; 3] };
         match area {
-            AreaModel::Disc | AreaModel::Sphere => Self::NONE,
-            AreaModel::Clipped => clipped,
+            AreaModel::Disc | AreaModel::Sphere | AreaModel::Flattened => Self::NONE,
+            AreaModel::Clipped | AreaModel::Visible => clipped,
             AreaModel::Linear => Self::linear(normal, inside).unwrap_or(clipped),
         }
     }
@@ -122,6 +125,16 @@ pub trait Surroundings<P> {
     /// What of the surface is in a ball around the point; `None` if it fills the disc, or nothing is known of it.
     fn inside(&self, _radius: f64, _kernel: Kernel) -> Option<Inside> {
         None
+    }
+
+    /// The same of what the point sees.
+    fn seen_inside(&self, _radius: f64, _kernel: Kernel) -> Option<Inside> {
+        None
+    }
+
+    /// True if the point sees a photon at a place, metres as the map has them.
+    fn is_seen(&self, _position: [f32; 3], _photon: &P) -> bool {
+        true
     }
 }
 

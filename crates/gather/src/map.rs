@@ -4,9 +4,9 @@ use photonlab_kdtree::{BuildError, KdTree, Neighbours, SplitRule};
 use photonlab_photometry::{Colour, Photon};
 
 use crate::{
-    Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests,
+    AreaModel, Bandwidth, Estimate, Estimator, Kernel, OpenPlane, Surroundings, Tests,
     accepted::Accepted,
-    ball_sum::BallSum,
+    ball_sum::{BallSum, seen},
     boundary::{Correction, Corrections},
     facing::Facing,
 };
@@ -97,8 +97,8 @@ impl<const C: usize> PhotonMap<C> {
         }
     }
 
-    fn accepted<'a>(&'a self, at: &'a GatherPoint, tests: &'a Tests) -> Accepted<'a, C> {
-        Accepted::new(at, tests, self.tree.payloads(), &self.facing)
+    fn accepted<'a>(&'a self, at: &'a GatherPoint, tests: &'a Tests, area: AreaModel) -> Accepted<'a, C> {
+        Accepted::new((at, tests, area), &self.tree, &self.facing)
     }
 
     /// All photons in the closed ball over its area (catalogue A1): unbiased where the irradiance is even, with any kernel.
@@ -111,7 +111,13 @@ impl<const C: usize> PhotonMap<C> {
         around: &impl Surroundings<Photon<C>>,
     ) -> Estimate<C> {
         let corrections = Correction::pair(estimator, at.normal, [CHECK * radius, radius], around);
-        let mut sum = BallSum::new(&self.tree, self.accepted(at, tests), around, (radius, estimator), corrections);
+        let mut sum = BallSum::new(
+            &self.tree,
+            self.accepted(at, tests, estimator.area),
+            around,
+            (radius, estimator),
+            corrections,
+        );
         let (sums, photons) = (sum.sums(), sum.photons);
         let per_area = 1.0 / estimator.area.area(radius * radius);
         let irradiance = sums.weighed * per_area;
@@ -141,8 +147,11 @@ impl<const C: usize> PhotonMap<C> {
         scratch: &mut Scratch,
     ) -> Estimate<C> {
         let found = &mut scratch.found;
-        let accepted = self.accepted(at, tests);
-        let in_block = |first, mask| accepted.in_block(first, mask);
+        let accepted = self.accepted(at, tests, estimator.area);
+        let in_block = |first, mask| {
+            let counted = accepted.in_block(first, mask);
+            if estimator.area.hides() { seen(&self.tree, around, first, counted) } else { counted }
+        };
         self.tree.nearest_of_blocks(at.position, k, max_radius as f32, in_block, found);
         let starved = found.len() < k;
         if starved && max_radius.is_finite() {
@@ -185,7 +194,7 @@ impl<const C: usize> PhotonMap<C> {
         let irradiance = weighed * per_area;
         let mut told = Colour::ZERO;
         if estimator.tells_bias {
-            let accepted = self.accepted(at, tests);
+            let accepted = self.accepted(at, tests, estimator.area);
             let mut wide = BallSum::new(&self.tree, accepted, around, (radius, estimator), corrections).sums().wide;
             if let Some(last) = last {
                 let of_rim = corrections.map_or(1.0, |pair| {
@@ -213,7 +222,7 @@ impl<const C: usize> PhotonMap<C> {
                     position: self.tree.point(index),
                     normal: self.tree.payloads()[index].normal.unpack(),
                 };
-                let accepted = self.accepted(&at, &tests);
+                let accepted = self.accepted(&at, &tests, AreaModel::Disc);
                 let in_block = |first, mask| accepted.in_block(first, mask);
                 self.tree.nearest_of_blocks(at.position, k, f32::INFINITY, in_block, &mut scratch.found);
                 let full = scratch.found.len() == k;
