@@ -8,14 +8,15 @@ use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Source,
+    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Settings, Source,
     bins::Bins,
     look::{Look, Sample},
-    maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
+    maps::{DIRECT_VIEW_COUNT, PassMaps, Radii, SHRINK},
     probe::{probe, shares},
     run::Run,
     session::passes_at_hand,
     trace_pass,
+    tuned::FEWEST_CELLS,
 };
 
 /// Passes for which a radius is tuned where nobody says how many there will be, or more: a run that its error ends has no fewer, so the
@@ -25,6 +26,10 @@ const USUAL_PASSES: u64 = 16;
 /// Of so many samples of a pixel in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
 /// noise is the smaller part of the error bar.
 const TOLD_OF: u64 = 4;
+
+/// Whose photons tune: a pass that no run reads.
+const PILOT_SEED: u64 = 0;
+const PILOT_PASS: u32 = u32::MAX - 1;
 
 /// Photons of a nearest-photon estimate at least.
 const FEWEST_NEAREST: f64 = 8.0;
@@ -67,9 +72,11 @@ impl<const C: usize> Session<'_, C> {
             Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive
         );
         let surface_radius = match &maps.surface {
-            Some(map) if number == 0 && is_tuned => {
+            Some(_) if number == 0 && is_tuned => {
                 let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
-                run.common = self.tuned_radius(&look, map, cells, maps.surface_radius, passes);
+                let pilot = self.pilot(cells, optics, schedule, source)?;
+                let look = Look { maps: pilot.as_ref().unwrap_or(&maps), ..look };
+                run.common = self.tuned_radius(&look, cells, passes);
                 run.k = Some(run.common.photons);
                 run.radius += run.common.radius - maps.surface_radius;
                 *run.radii.surface.insert(run.common.radius)
@@ -181,6 +188,27 @@ impl<const C: usize> Session<'_, C> {
                 })
             })
             .collect()
+    }
+
+    /// Maps of photons of which no pass reads any, the same whatever the run's seed, to tune few cells' radius by: by its own photons each
+    /// run would choose another, and so another bias, which the spread of its passes does not show. `None` for many cells, whose radius
+    /// hardly varies, and for saved maps.
+    fn pilot(
+        &self,
+        cells: &[Cell],
+        optics: &Optics<C>,
+        schedule: &Schedule,
+        source: &Source<'_, C>,
+    ) -> Result<Option<PassMaps<C>>, ReadError> {
+        if cells.len() >= FEWEST_CELLS || matches!(source, Source::Map(_)) {
+            return Ok(None);
+        }
+        let settings = Settings { seed: PILOT_SEED, ..self.settings };
+        let light = (self.sought(), settings.classes());
+        let photons = trace_pass(self.world, optics, &settings, light, PILOT_PASS, schedule.photons(0))?;
+        let of = (self.world, self.needs);
+        PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
+            .map(|maps| maps.surface.is_some().then_some(maps))
     }
 
     fn maps(

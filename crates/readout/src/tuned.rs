@@ -19,7 +19,7 @@ use crate::{
 /// Points that are looked at, spread over the cells; of more cells, some.
 const POINTS: usize = 4096;
 /// Fewer cells than this are not looked at themselves.
-const FEWEST_CELLS: usize = 256;
+pub(crate) const FEWEST_CELLS: usize = 256;
 /// A photon's surface is sought from so far, over the scene's size: its place is known to some 1e-7.
 const AWAY: f64 = 1e-5;
 /// Looks at most, each at twice the radius.
@@ -105,8 +105,7 @@ fn widening(passes: u64, power: f64) -> f64 {
 enum Places<'c, const C: usize> {
     /// Where the cells read.
     Cells(&'c [Cell]),
-    /// Where photons lie, all over the scene: of few cells each run's own photons would choose the radius of all its passes, and so a
-    /// bias that the passes' spread does not show.
+    /// Where photons lie, all over the scene: few cells say little.
     Photons(Vec<(SurfacePoint, Sight<C>)>),
 }
 
@@ -115,15 +114,12 @@ impl<const C: usize> Session<'_, C> {
     /// their radii shrink as pass^(-1/6). With one pass's variances `v / r^2` and biases `b r^p` that is where
     /// `v / (passes r^2) = p b^2 r^(2 p)`. For the nearest photons r^2 stands for their number. Both are looked at with balls of growing radii, until the bias is heard above its own noise,
     /// and taken from there. All cells have a part in it, so that it hardly depends on any one's photons.
-    pub(crate) fn tuned_radius(
-        &self,
-        look: &Look<'_, C>,
-        map: &PhotonMap<C>,
-        cells: &[Cell],
-        first: f64,
-        passes: u64,
-    ) -> Common {
-        let places = if cells.len() >= FEWEST_CELLS { Places::Cells(cells) } else { self.where_photons_lie(map) };
+    pub(crate) fn tuned_radius(&self, look: &Look<'_, C>, cells: &[Cell], passes: u64) -> Common {
+        let first = look.maps.surface_radius;
+        let places = match &look.maps.surface {
+            Some(map) if cells.len() < FEWEST_CELLS => self.where_photons_lie(map),
+            _ => Places::Cells(cells),
+        };
         // Balls each of which tells its bias: of one radius, or of the photons that such a ball holds where photons are.
         let photons_in = |radius: f64| DIRECT_VIEW_COUNT as f64 * (radius / first).powi(2);
         let at = |radius| Look { told_of: 1, k: (photons_in(radius).round() as usize).max(2), ..*look };

@@ -17,6 +17,7 @@ mod date;
 mod definition;
 mod edges;
 mod faces;
+mod far;
 mod field;
 mod furnace;
 mod growth;

@@ -17,6 +17,7 @@ use crate::{
         case_reading::put_down,
         context::{Context, Findings},
         covered::{Covered, LEVELS, Made, Run, Truth, USUAL},
+        far::{self, Far},
         lab::Lab,
         table::row,
     },
@@ -93,11 +94,16 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
             found.comparisons.extend(comparisons);
         }
     }
+    let far = far::measure(p.seed, p.seeds, p.photons, p.points, LEVELS[USUAL])?;
+    let comparisons = far.comparisons(CONFIDENCE);
+    found.groups.push(far_group(&far, comparisons.len()));
+    found.comparisons.extend(comparisons);
+    found.rows.extend(far.rows.iter().cloned());
     found.figures = vec![
         figure("noise", "Noise alone", &parts, |c| &c.noise),
         figure("whole", "Whole intervals of certified readings", &parts, |c| &c.whole),
     ];
-    let (verdict, reason) = conclude(&p, &parts, &found.comparisons);
+    let (verdict, reason) = conclude(&p, &parts, &far, &found.comparisons);
     Ok(context.record(found, verdict, reason))
 }
 
@@ -256,7 +262,14 @@ fn scene_row(entry: &Entry, case: &Case, method: &str, set_aside: bool, runs: &[
     ])
 }
 
-fn conclude(p: &Parameters, parts: &[[Part; 2]], comparisons: &[Comparison]) -> (Verdict, String) {
+fn far_group(far: &Far, comparisons: usize) -> Group {
+    let words =
+        far::METHODS.iter().enumerate().map(|(i, (name, _))| format!("{name} {:.1} %", 100.0 * far.certified(i)));
+    let summary = format!("certified: {}", words.collect::<Vec<_>>().join(", "));
+    Group { title: "More than two radii from edges, shadows and folds".into(), summary, comparisons }
+}
+
+fn conclude(p: &Parameters, parts: &[[Part; 2]], far: &Far, comparisons: &[Comparison]) -> (Verdict, String) {
     let wide = |part: &Part| {
         let of = &part.covered;
         [&of.noise[USUAL], &of.whole[USUAL]]
@@ -276,8 +289,10 @@ fn conclude(p: &Parameters, parts: &[[Part; 2]], comparisons: &[Comparison]) -> 
     });
     let reason = format!(
         "over the set-aside scenes 95 % intervals of the noise alone hold the estimator's mean, and whole ones of certified readings \
-         the answer, in: {}",
-        words.collect::<Vec<_>>().join("; ")
+         the answer, in: {}; more than two radii from edges, shadows and folds, as the closed forms know them, of single readings of all \
+         light from the map {}",
+        words.collect::<Vec<_>>().join("; "),
+        far_group(far, 0).summary
     );
     if parts.iter().any(|parts| wide(&parts[1])) {
         return (
@@ -286,7 +301,7 @@ fn conclude(p: &Parameters, parts: &[[Part; 2]], comparisons: &[Comparison]) -> 
         );
     }
     let narrow = parts.iter().all(|parts| parts[1].covered.median_ratio().is_none_or(|ratio| ratio <= WIDEST));
-    let aside = comparisons.iter().filter(|c| c.label.contains("set-aside"));
+    let aside = comparisons.iter().filter(|c| !c.label.contains("tuned-on"));
     let holds = aside.clone().all(|c| c.holds != Some(false)) && narrow;
     (if holds { Verdict::Holds } else { Verdict::DoesNotHold }, reason)
 }
