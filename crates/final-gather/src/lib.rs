@@ -16,5 +16,5 @@ mod stretches;
 pub use gatherer::{GatherMaps, Gatherer, MapWithRadius};
 pub use in_scattering::{InScattering, VolumeMaps};
 pub use light::Light;
-pub use place::{Place, surface_inside};
+pub use place::{Place, surface_inside, surface_seen};
 pub use segment::{EyeLimits, Landing, Start, follow};

@@ -74,7 +74,7 @@ impl<const C: usize, W: Fn(&Photon<C>) -> f64> Surroundings<Photon<C>> for Aroun
         let Place { world, optics, .. } = self.place;
         let around = self.neighbourhood(radius)?;
         let stores = |primitive, front| optics.stores(world, primitive, front);
-        Some(for_a_map(&world.surface_seen(&around, &Weight(kernel), stores)))
+        Some(surface_seen(world, &around, kernel, stores))
     }
 
     fn is_seen(&self, position: [f32; 3], photon: &Photon<C>) -> bool {
@@ -108,6 +108,16 @@ pub fn surface_inside(
     stores: impl Fn(u32, bool) -> bool,
 ) -> Option<Inside> {
     Some(for_a_map(&world.surface_inside(around, &Weight(kernel), stores)?))
+}
+
+/// What [`World::surface_seen`] finds of a kernel, as a map asks for it.
+pub fn surface_seen(
+    world: &World,
+    around: &Neighbourhood,
+    kernel: Kernel,
+    stores: impl Fn(u32, bool) -> bool,
+) -> Inside {
+    for_a_map(&world.surface_seen(around, &Weight(kernel), stores))
 }
 
 fn for_a_map(inside: &photonlab_scene::Inside) -> Inside {

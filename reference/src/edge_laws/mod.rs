@@ -17,7 +17,7 @@ pub use crease::{CreaseReading, crease, right_angle_maximum};
 pub use flat::{corner, rectangle_mean, strip};
 pub use half_plane::{half_plane, half_plane_kernel};
 pub use moments::HalfPlaneMoments;
-pub use thin_wall::{thin_wall, wall_on_floor};
+pub use thin_wall::{sheet_over_floor, thin_wall, wall_on_floor};
 
 /// Independent areas for the checks, by polar integration: no formula of this module is used.
 #[cfg(test)]

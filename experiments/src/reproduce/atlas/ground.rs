@@ -1,8 +1,9 @@
 //! Surfaces under synthetic photons, for the remedies that ask how much surface is there.
 
 use glam::DVec3;
-use photonlab_final_gather::surface_inside;
+use photonlab_final_gather::{surface_inside, surface_seen};
 use photonlab_gather::{GatherPoint, Inside, Kernel, Surroundings};
+use photonlab_photometry::Photon;
 use photonlab_scene::{Neighbourhood, World, read::read_scene_str};
 
 use crate::reproduce::faces::Face;
@@ -60,10 +61,24 @@ pub(super) struct Around<'g> {
     normal: DVec3,
 }
 
-impl<P> Surroundings<P> for Around<'_> {
-    fn inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
+impl Around<'_> {
+    fn neighbourhood(&self, radius: f64) -> Neighbourhood {
         let least_cosine = self.ground.least_cosine;
-        let around = Neighbourhood { position: self.position, primitive: 0, normal: self.normal, radius, least_cosine };
-        surface_inside(&self.ground.world, &around, kernel, |_, front| front)
+        Neighbourhood { position: self.position, primitive: 0, normal: self.normal, radius, least_cosine }
+    }
+}
+
+impl<const C: usize> Surroundings<Photon<C>> for Around<'_> {
+    fn inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
+        surface_inside(&self.ground.world, &self.neighbourhood(radius), kernel, |_, front| front)
+    }
+
+    fn seen_inside(&self, radius: f64, kernel: Kernel) -> Option<Inside> {
+        Some(surface_seen(&self.ground.world, &self.neighbourhood(radius), kernel, |_, front| front))
+    }
+
+    fn is_seen(&self, position: [f32; 3], photon: &Photon<C>) -> bool {
+        let [there, normal] = [position, photon.normal.unpack()].map(|v| DVec3::from(v.map(f64::from)));
+        self.ground.world.see_each_other((self.position, self.normal), (there, normal))
     }
 }

@@ -13,6 +13,7 @@ mod fog;
 mod glossy;
 mod ground;
 mod judgement;
+mod leak;
 mod mode;
 mod norm;
 mod passes;
@@ -37,7 +38,7 @@ const FAMILY: f64 = 0.99;
 type Maker = fn(&Part) -> anyhow::Result<Mode>;
 
 /// Every mode by its name, in the order of the report.
-const MODES: [(&str, Maker); 40] = [
+const MODES: [(&str, Maker); 42] = [
     ("free-edge", edge::free_edge),
     ("free-corner", edge::free_corner),
     ("edge-slope", edge::slope),
@@ -50,6 +51,8 @@ const MODES: [(&str, Maker); 40] = [
     ("caustic-fold", blur::caustic_fold),
     ("small-sphere", ball::small_sphere),
     ("thin-wall", edge::thin_wall),
+    ("wall-on-floor", leak::wall_on_floor),
+    ("sheet-over-floor", leak::sheet_over_floor),
     ("one-sided-sheet", sheet::one_sided),
     ("all-k", few::all_k),
     ("cone-norm", norm::cone),
