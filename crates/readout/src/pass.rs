@@ -192,7 +192,7 @@ impl<const C: usize> Session<'_, C> {
 
     /// Maps of photons of which no pass reads any, the same whatever the run's seed, to tune few cells' radius by: by its own photons each
     /// run would choose another, and so another bias, which the spread of its passes does not show. `None` for many cells, whose radius
-    /// hardly varies, and for saved maps.
+    /// hardly varies.
     fn pilot(
         &self,
         cells: &[Cell],
@@ -200,12 +200,16 @@ impl<const C: usize> Session<'_, C> {
         schedule: &Schedule,
         source: &Source<'_, C>,
     ) -> Result<Option<PassMaps<C>>, ReadError> {
-        if cells.len() >= FEWEST_CELLS || matches!(source, Source::Map(_)) {
+        if cells.len() >= FEWEST_CELLS {
             return Ok(None);
         }
+        let count = match source {
+            Source::Trace => schedule.photons(0),
+            Source::Map(file) => file.passes[0].emitted,
+        };
         let settings = Settings { seed: PILOT_SEED, ..self.settings };
         let light = (self.sought(), settings.classes());
-        let photons = trace_pass(self.world, optics, &settings, light, PILOT_PASS, schedule.photons(0))?;
+        let photons = trace_pass(self.world, optics, &settings, light, PILOT_PASS, count)?;
         let of = (self.world, self.needs);
         PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
             .map(|maps| maps.surface.is_some().then_some(maps))

@@ -21,6 +21,9 @@ pub(super) const CONFIDENCE: f64 = 0.9999;
 /// Confidence at which a first reading's spread is believed.
 const LIKELY: f64 = 0.9;
 
+/// A run goes on until its half-width is this share of the wanted one: what is wanted goes by the answer, and the run by its own value.
+const MARGIN: f64 = 0.99;
+
 /// Photons counted, or points of a meter from which rays were followed, below which a reading is not judged.
 const FEWEST: f64 = 1000.0;
 
@@ -205,7 +208,7 @@ fn attempt<const C: usize>(
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
     };
     let wanted = Wanted {
-        target_error: Some(precision),
+        target_error: Some(MARGIN * precision),
         time_limit: Some(Duration::from_secs_f64(seconds)),
         ..Wanted::default()
     };
