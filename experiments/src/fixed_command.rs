@@ -1,18 +1,23 @@
 //! The command that gives the same bits again.
 
 use photonlab_gather::{AreaModel, Kernel};
-use photonlab_readout::{Direct, Method, Outcome, Settings};
+use photonlab_readout::{Direct, Method, Outcome, Settings, USUAL_PASSES};
 
 use crate::command::{Options, SceneArguments, UnitsName};
 
-/// The command with the method and all counts spelled out, so that no clock and no `auto` decides.
+/// The command with the method and all counts spelled out, so that no clock and no `auto` decides. `None` where a clock has ended a run before
+/// the passes for which its radius was tuned: one of so few passes would tune for fewer.
 pub(crate) fn fixed_command<const C: usize>(
     verb: &str,
     scene: &SceneArguments,
     options: &Options,
     settings: &Settings,
     outcome: &Outcome<C>,
-) -> String {
+) -> Option<String> {
+    let knew_its_passes = options.passes.is_some() || options.map.is_some() || outcome.passes >= USUAL_PASSES;
+    if settings.method.is_tuned() && !knew_its_passes {
+        return None;
+    }
     let mut words = vec!["photonlab".to_string(), verb.into(), quoted(&scene.scene.display().to_string())];
     let mut option = |name: &str, value: String| words.extend([format!("--{name}"), value]);
     option("method", settings.method.name().into());
@@ -85,7 +90,7 @@ pub(crate) fn fixed_command<const C: usize>(
     for (name, value) in &scene.define {
         words.extend(["-D".into(), quoted(&format!("{name}={value}"))]);
     }
-    words.join(" ")
+    Some(words.join(" "))
 }
 
 /// A word as a shell takes it.

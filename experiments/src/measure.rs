@@ -64,7 +64,7 @@ fn run<const C: usize>(
     Ok(Measurement {
         scene: arguments.scene.scene.display().to_string(),
         method: settings.method.name().into(),
-        command: Some(fixed_command("measure --json", &arguments.scene, options, &settings, &outcome)),
+        command: fixed_command("measure --json", &arguments.scene, options, &settings, &outcome),
         seed: settings.seed,
         threads: system::threads(),
         photons: outcome.photons,

@@ -83,13 +83,14 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     }
     let unit = cells[0].quantity().in_system(options.unit_system()).unit();
     let film = world.scene.sensors[sensor].film;
-    let attributes = vec![
+    let command = fixed_command("render", &arguments.scene, options, &settings, &outcome);
+    let mut attributes = vec![
         ("scene".to_string(), arguments.scene.scene.display().to_string()),
-        ("command".to_string(), fixed_command("render", &arguments.scene, options, &settings, &outcome)),
         ("seed".to_string(), settings.seed.to_string()),
         ("units".to_string(), unit.symbol().to_string()),
         ("confidence".to_string(), confidence.to_string()),
     ];
+    attributes.extend(command.map(|command| ("command".to_string(), command)));
     Ok(layers(&outcome, film, confidence, unit.symbol(), attributes))
 }
 

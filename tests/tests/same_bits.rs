@@ -91,6 +91,8 @@ fn the_fixed_command_gives_the_same_bits() {
         format!("measure {cube} --k 20 --passes 5 --seed 18446744073709551615"),
         format!("measure {cube} --radius 0.25 --passes 3 --spp 10 --max-depth 4 --area sphere --direct photons"),
         format!("measure {cube} --gather-rays 3 --passes 3 --spp 10 --max-specular 7"),
+        format!("measure {cube} --method radius --target-error 8% --sensor C"),
+        format!("measure {cube} --method nearest --direct photons --photons 2e5 --sensor C"),
         "measure 'it'\\''s a scene.xml' -D rho=0.25 --passes 2".to_string(),
     ] {
         let Some(first) = program.shell(&format!("photonlab {options} --json")) else {

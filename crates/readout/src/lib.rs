@@ -32,5 +32,6 @@ pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};
 pub use method::{Direct, Method, Settings};
 pub use outcome::{CellResult, ErrorOver, Outcome};
+pub use pass::USUAL_PASSES;
 pub use schedule::{Demands, Ends, Schedule, Wanted};
 pub use session::{Observer, ReadError, Session, Source};

@@ -39,6 +39,11 @@ impl Method {
         }
     }
 
+    /// True if the radius, or the number of photons, is chosen by a look at the first pass.
+    pub fn is_tuned(&self) -> bool {
+        matches!(self, Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive)
+    }
+
     /// The method's name on the command line and in results.
     pub fn name(&self) -> &'static str {
         match self {

@@ -21,7 +21,7 @@ use crate::{
 
 /// Passes for which a radius is tuned where nobody says how many there will be, or more: a run that its error ends has no fewer, so the
 /// command that spells its passes out gives its bits.
-const USUAL_PASSES: u64 = 16;
+pub const USUAL_PASSES: u64 = 16;
 
 /// Of so many samples of a pixel in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
 /// noise is the smaller part of the error bar.
@@ -67,12 +67,8 @@ impl<const C: usize> Session<'_, C> {
             shares: &shares,
             caustics: &maps.in_cells,
         };
-        let is_tuned = matches!(
-            self.settings.method,
-            Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive
-        );
         let surface_radius = match &maps.surface {
-            Some(_) if number == 0 && is_tuned => {
+            Some(_) if number == 0 && self.settings.method.is_tuned() => {
                 let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
                 let pilot = self.pilot(cells, optics, schedule, source)?;
                 let look = Look { maps: pilot.as_ref().unwrap_or(&maps), ..look };
