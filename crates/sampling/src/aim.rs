@@ -227,15 +227,15 @@ impl<const C: usize> Aim<C> {
                 let origin = *centre + on_disc + 1.01 * *radius * towards;
                 Emission { ray: Ray::new(origin, -towards), from: None, weight }
             }
-            LampKind::Area { primitive, .. } => self.from_surface(world, *primitive, stream),
+            LampKind::Area { primitive, .. } => self.off_surface(world, *primitive, stream),
             LampKind::Faces { shape, .. } => {
-                self.from_surface(world, world.primitive_by_area(*shape, stream.next()).0, stream)
+                self.off_surface(world, world.primitive_by_area(*shape, stream.next()).0, stream)
             }
             LampKind::Portal { .. } => unreachable!("portals are not aimed"),
         }
     }
 
-    fn from_surface(&self, world: &World, primitive: u32, stream: &mut Stream) -> Emission<C> {
+    fn off_surface(&self, world: &World, primitive: u32, stream: &mut Stream) -> Emission<C> {
         let position = world.primitives[primitive as usize].surface.point_by_area(stream.next2());
         let (direction, cone) = self.target.draw(position, stream);
         let cosine = direction.dot(world.point_on(primitive, position).normal).max(0.0);
