@@ -1,27 +1,11 @@
 //! What a point sees: light does not leak past walls, and area is found by rays.
 
 use glam::DVec3;
+use photonlab_final_gather::{surface_inside, surface_seen};
 use photonlab_gather::{AreaModel, Estimator, Kernel};
 use photonlab_readout::{Direct, Method};
-use photonlab_scene::{Neighbourhood, RadialWeight};
+use photonlab_scene::Neighbourhood;
 use photonlab_tests::{Family, Lab, seed, settings};
-
-/// Each point as it is.
-struct Even;
-
-impl RadialWeight for Even {
-    fn weight(&self, _: f64) -> f64 {
-        1.0
-    }
-
-    fn mass(&self, t: f64) -> f64 {
-        t
-    }
-
-    fn second(&self, t: f64) -> f64 {
-        0.5 * t * t
-    }
-}
 
 /// Where each is known exactly, the area found by rays is that, within what its points leave open.
 #[test]
@@ -34,8 +18,8 @@ fn area_by_rays_is_the_area() {
     let primitive = (0..6).find(|&p| room.world.point_on(p, floor).normal.dot(n) > 0.99).expect("a floor");
     for (at, radius) in [(floor, 0.1), (floor, 0.3), (floor, 0.5), (DVec3::new(0.9, -0.9, -1.0), 0.25)] {
         let around = Neighbourhood { position: at, primitive, normal: n, radius, least_cosine: 0.5 };
-        let exact = room.world.surface_inside(&around, &Even, |_, _| true).map_or(1.0, |inside| inside.area);
-        let seen = room.world.surface_seen(&around, &Even, |_, _| true).area;
+        let exact = surface_inside(&room.world, &around, Kernel::Disc, |_, _| true).map_or(1.0, |inside| inside.area);
+        let seen = surface_seen(&room.world, &around, Kernel::Disc, |_, _| true).area;
         assert!((seen / exact - 1.0).abs() < 0.03, "{at} {radius}: {seen}, exactly {exact}");
     }
     // Of a sphere a ball cuts as much as of a plane (Archimedes).
@@ -48,7 +32,7 @@ fn area_by_rays_is_the_area() {
         least_cosine: 0.5,
     };
     for radius in [0.05, 0.15, 0.25] {
-        let seen = room.world.surface_seen(&around(radius), &Even, |primitive, _| primitive == 6).area;
+        let seen = surface_seen(&room.world, &around(radius), Kernel::Disc, |primitive, _| primitive == 6).area;
         assert!((seen - 1.0).abs() < 0.03, "{radius}: {seen}");
     }
 }

@@ -145,8 +145,7 @@ impl Target {
 
     /// 1 - cos of the half-angle under which it is seen from outside.
     fn cone(&self, from: DVec3) -> f64 {
-        let sine2 = (self.radius * self.radius / (self.centre - from).length_squared()).min(1.0);
-        sine2 / (1.0 + (1.0 - sine2).sqrt())
+        warp::cone_of_sphere(self.radius, self.centre - from)
     }
 
     fn draw(&self, from: DVec3, stream: &mut Stream) -> (DVec3, f64) {
@@ -156,10 +155,7 @@ impl Target {
 
     /// A point of its disc across a direction.
     fn across(&self, direction: DVec3, stream: &mut Stream) -> DVec3 {
-        let [s, t] = stream.next2();
-        let (sin, cos) = (TAU * t).sin_cos();
-        let (tangent, bitangent) = direction.any_orthonormal_pair();
-        self.centre + self.radius * s.sqrt() * (cos * tangent + sin * bitangent)
+        self.centre + self.radius * warp::square_to_uniform_disc(stream.next2(), direction)
     }
 
     /// Square metres.

@@ -299,7 +299,7 @@ impl<'w> AreaDraw<'w> {
 
 /// 1 - cos of the half-angle under which an outward-shining sphere is seen from outside.
 fn cone_of(ball: &Ball, from: DVec3) -> Option<f64> {
-    let distance2 = (ball.centre - from).length_squared();
-    let sine2 = ball.radius * ball.radius / distance2;
-    (!ball.inwards && sine2 < 1.0).then(|| sine2 / (1.0 + (1.0 - sine2).sqrt()))
+    let offset = ball.centre - from;
+    let is_outside = ball.radius * ball.radius < offset.length_squared();
+    (!ball.inwards && is_outside).then(|| warp::cone_of_sphere(ball.radius, offset))
 }

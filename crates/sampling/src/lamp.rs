@@ -111,10 +111,7 @@ impl<const C: usize> Lamp<C> {
             }
             LampKind::Environment { environment, centre, radius, portals } => {
                 let (towards, weight) = environment.emit(stream);
-                let [s, t] = stream.next2();
-                let (sin, cos) = (2.0 * PI * t).sin_cos();
-                let (tangent, bitangent) = towards.any_orthonormal_pair();
-                let on_disc = s.sqrt() * (cos * tangent + sin * bitangent);
+                let on_disc = warp::square_to_uniform_disc(stream.next2(), towards);
                 let origin = *centre + *radius * (on_disc + 1.01 * towards);
                 let ray = Ray::new(origin, -towards);
                 let free = || first_hit(world, &ray, None);

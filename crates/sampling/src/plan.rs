@@ -95,9 +95,10 @@ impl<const C: usize> EmissionPlan<C> {
         let by_flux = if aims.aims.is_empty() { 0.0 } else { aimed / aims.importance() };
         let mut sources = Vec::with_capacity(count + aims.aims.len());
         let mut shares = Vec::with_capacity(sources.capacity());
+        let least = FLOOR * (1.0 / count as f64);
         for (lamp, of) in lamps.lamps.iter().enumerate() {
             sources.push(Source { lamp, aim: None, flux: of.flux });
-            shares.push(of.importance() / total * (1.0 - aimed));
+            shares.push((of.importance() / total).max(least) * (1.0 - aimed));
             for aim in aims.of_lamp(lamp) {
                 sources.push(Source { lamp, aim: Some(aim), flux: aims.aims[aim].base });
                 shares.push(aims.aims[aim].importance * by_flux);
@@ -154,14 +155,12 @@ fn aims_for<const C: usize>(lamps: &Lamps<C>, total: f64, photons: u64, sought: 
 /// each part, and the total at the end.
 fn shared_out(photons: u64, shares: &[f64]) -> Vec<u64> {
     let count = shares.len();
-    let least = FLOOR * (1.0 / count as f64);
-    let weights: Vec<f64> = shares.iter().map(|share| share.max(least)).collect();
-    let sum: f64 = weights.iter().sum();
+    let sum: f64 = shares.iter().sum();
     let spare = photons - count as u64;
     let mut first = vec![0];
     let mut running = 0.0;
-    for (index, weight) in weights.iter().enumerate() {
-        running += weight;
+    for (index, share) in shares.iter().enumerate() {
+        running += share;
         let end = if index + 1 == count { spare } else { ((running / sum) * spare as f64).round() as u64 };
         first.push(end + index as u64 + 1);
     }

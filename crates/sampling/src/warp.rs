@@ -48,6 +48,19 @@ pub fn square_to_uniform_sphere(xi: [f64; 2]) -> DVec3 {
     DVec3::new(radius * cos, radius * sin, z)
 }
 
+/// Unit square to the unit disc across a unit vector, density 1 / pi per area.
+pub(crate) fn square_to_uniform_disc(xi: [f64; 2], across: DVec3) -> DVec3 {
+    let (sin, cos) = (TAU * xi[1]).sin_cos();
+    let (tangent, bitangent) = across.any_orthonormal_pair();
+    xi[0].sqrt() * (cos * tangent + sin * bitangent)
+}
+
+/// 1 - cos of the half-angle under which a sphere is seen from outside, its centre at an offset; from within, of a hemisphere.
+pub(crate) fn cone_of_sphere(radius: f64, offset: DVec3) -> f64 {
+    let sine2 = (radius * radius / offset.length_squared()).min(1.0);
+    sine2 / (1.0 + (1.0 - sine2).sqrt())
+}
+
 /// Unit square to the cone of half-angle theta around a unit axis, density 1 / (2 pi (1 - cos theta)) per solid angle.
 /// `one_minus_cos` is 1 - cos theta, which keeps its digits for narrow cones.
 pub fn square_to_uniform_cone(xi: [f64; 2], axis: DVec3, one_minus_cos: f64) -> DVec3 {

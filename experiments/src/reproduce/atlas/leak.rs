@@ -6,8 +6,8 @@ use photonlab_reference::edge_laws;
 
 use super::{
     ground::Ground,
-    mode::{Curve, Law, Mode, Part, each},
-    photons::{density, facing_up, map},
+    mode::{Curve, Law, Mode, Part, Trial, each},
+    photons::{NORMAL_TEST, density, facing_up, map},
 };
 use crate::reproduce::faces::{Face, lit};
 
@@ -29,6 +29,20 @@ fn floor(height: f64, [from, to]: [f64; 2]) -> Face {
     }
 }
 
+/// A place that no light reaches, whatever is swept.
+fn dark((id, title): (&'static str, &'static str), x: Axis, y: &str, curves: Vec<Curve>, trial: Trial) -> Mode {
+    Mode {
+        id,
+        title,
+        x,
+        y: Axis::linear(y),
+        truth: Some(("truth", Box::new(|_| 0.0) as Law)),
+        between: true,
+        curves,
+        trial,
+    }
+}
+
 /// Beside a wall that stands on a floor, of which the other side is lit.
 pub(super) fn wall_on_floor(part: &Part) -> anyhow::Result<Mode> {
     let photons = part.photons;
@@ -38,53 +52,45 @@ pub(super) fn wall_on_floor(part: &Part) -> anyhow::Result<Mode> {
         normal: [1.0, 0.0, 0.0],
     };
     let ground = Ground::of_faces(&[floor(0.0, [-REACH, REACH]), wall], f64::from(SAME_SURFACE))?;
-    let tests = super::photons::NORMAL_TEST;
-    Ok(Mode {
-        id: "wall-on-floor",
-        title: "Wall on a floor, lit on its other side",
-        x: Axis::linear("distance from the wall over the search radius"),
-        y: Axis::linear("reading over the irradiance of the other side"),
-        truth: Some(("truth", Box::new(|_| 0.0) as Law)),
-        between: true,
-        curves: vec![
+    Ok(dark(
+        ("wall-on-floor", "Wall on a floor, lit on its other side"),
+        Axis::linear("distance from the wall over the search radius"),
+        "reading over the irradiance of the other side",
+        vec![
             Curve::off("normal test", LEAK, edge_laws::wall_on_floor),
             Curve::on("what the point sees", "nothing of it", |_| 0.0),
         ],
-        trial: each(move |t, stream, scratch| {
+        each(move |t, stream, scratch| {
             let map = map(lit(&[floor(0.0, [-REACH, 0.0])], density(photons), stream))?;
             let at = facing_up([t, 0.0, 0.0]);
             let around = ground.around(&at);
             let mut read = |area| {
                 let estimator = Estimator::new(Kernel::Disc, area);
-                map.gather_among(&at, BALL, estimator, &tests, &around, scratch).irradiance[0]
+                map.gather_among(&at, BALL, estimator, &NORMAL_TEST, &around, scratch).irradiance[0]
             };
             Ok([read(AreaModel::Disc), read(AreaModel::Visible)])
         }),
-    })
+    ))
 }
 
 /// On a dark floor under a sheet that is lit from above.
 pub(super) fn sheet_over_floor(part: &Part) -> anyhow::Result<Mode> {
     let photons = part.photons;
-    Ok(Mode {
-        id: "sheet-over-floor",
-        title: "Lit sheet over a dark floor",
-        x: Axis::log("height of the sheet over the search radius"),
-        y: Axis::linear("reading over the sheet's irradiance"),
-        truth: Some(("truth", Box::new(|_| 0.0) as Law)),
-        between: true,
-        curves: vec![
+    Ok(dark(
+        ("sheet-over-floor", "Lit sheet over a dark floor"),
+        Axis::log("height of the sheet over the search radius"),
+        "reading over the sheet's irradiance",
+        vec![
             Curve::off("normal test", SHEET, edge_laws::thin_wall),
             Curve::on("flattened ball", "the same beyond its height over a tenth", |h| {
                 edge_laws::sheet_over_floor(h, FLATNESS)
             }),
         ],
-        trial: each(move |h, stream, scratch| {
+        each(move |h, stream, scratch| {
             let map = map(lit(&[floor(h, [-REACH, REACH])], density(photons), stream))?;
             let at = facing_up([0.0; 3]);
-            let tests = super::photons::NORMAL_TEST;
-            let mut read = |area: AreaModel| map.gather(&at, BALL, area, &tests, scratch).irradiance[0];
+            let mut read = |area: AreaModel| map.gather(&at, BALL, area, &NORMAL_TEST, scratch).irradiance[0];
             Ok([read(AreaModel::Disc), read(AreaModel::Flattened)])
         }),
-    })
+    ))
 }
