@@ -1,12 +1,18 @@
 //! The radius of a cell, chosen from what earlier passes have found of its bias and its noise.
 
 use photonlab_final_gather::Light;
+use photonlab_photometry::Colour;
 
-/// A radius grows or shrinks by at most this factor from one pass to the next.
-const LARGEST_STEP: f64 = 3.0;
+/// A radius grows by at most this factor from one pass to the next: what reaches over an edge is to reach over by little.
+const LARGEST_GROWTH: f64 = 1.5;
+/// And shrinks by at most this one.
+const LARGEST_SHRINKAGE: f64 = 3.0;
 
-/// So many passes of its own count as much to a cell as what all cells have shown before the first.
-const PASSES_OF_OTHERS: f64 = 2.0;
+/// The share of what all cells show that is taken for any one: the mean of squares is ruled by the few with the most.
+const OF_COMMON: f64 = 0.3;
+
+/// The squared bias that is believed of a cell alone, over its variance: beyond three standard errors.
+const HEARD: f64 = 9.0;
 
 /// What all cells have shown: where each begins, and what it believes until it knows better.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -15,7 +21,7 @@ pub(crate) struct Common {
     pub(crate) radius: f64,
     /// Photons in its ball, where photons are.
     pub(crate) photons: f64,
-    /// Mean over the cells of the squared bias over the radius to the fourth.
+    /// Sum over the cells of the squared bias over the radius to the fourth, over that of the squared light.
     pub(crate) bend_squared: f64,
 }
 
@@ -27,14 +33,16 @@ pub(crate) struct Common {
 /// second ball). A pass's radius depends on the photons of earlier passes alone, so that no pass is read with a radius
 /// that its own photons' noise has chosen: choosing the ball that looks best favours bright ones.
 ///
-/// The square of a noisy `b` is too large by the variance of its noise, which is taken off; and what all cells have shown stands in
-/// for what a cell does not know yet (as in empirical Bayes estimation), so that no radius is worse than the one for all.
+/// What all cells have shown of `b` over their light stands in for what a cell does not know yet (empirical Bayes estimation, the
+/// posterior mean of `b^2`): a cell's own `b` counts the more, the less its noise is beside what is expected of it, and beside what it
+/// is itself where it stands out of its noise, as it does at the few folds and peaks that all others say nothing about.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CellRadius {
     /// Metres; `None` before the first pass.
     radius: Option<f64>,
-    /// Sums over passes of the weight of each, and of it times the pass's `b` and `v`.
+    /// Sums over passes of the weight of each, and of it times the pass's light, `b` and `v`.
     weight: f64,
+    light: f64,
     bend: f64,
     noise: f64,
     /// Sum of the squared weights times the variance of each pass's `b`.
@@ -47,9 +55,8 @@ impl CellRadius {
         self.radius.unwrap_or(first)
     }
 
-    /// Takes in a pass that was read with `radius`, the last of `passes` so far: as they become more, their mean has less noise
-    /// and deserves a smaller radius, so that noise and bias both go to zero. How many there will be is not asked, since a
-    /// clock may decide that.
+    /// Takes in a pass that was read with `radius`, and chooses the next for the mean of `passes`: those that are expected, or those done
+    /// if they are more, so that noise and bias both go to zero.
     pub(crate) fn learn<const C: usize>(
         &mut self,
         mean: &Light<C>,
@@ -61,28 +68,36 @@ impl CellRadius {
         let next = if mean.noise > 0.0 {
             // The variance of a pass's b is proportional to v / r^6.
             let weight = radius.powi(6);
-            let bias = mean.bias.0.iter().sum::<f64>() / C as f64;
+            let of_channels = |colour: Colour<C>| colour.0.iter().sum::<f64>() / C as f64;
             self.weight += weight;
-            self.bend += weight * bias / (radius * radius);
+            self.light += weight * of_channels(mean.irradiance);
+            self.bend += weight * of_channels(mean.bias) / (radius * radius);
             self.noise += weight * mean.noise * radius * radius;
             self.noise_of_bend += (weight / (radius * radius)).powi(2) * mean.noise_of_bias;
-            let (b, v) = (self.bend / self.weight, self.noise / self.weight);
-            let own = (b * b - self.noise_of_bend / (self.weight * self.weight)).max(0.0);
-            let of_others = PASSES_OF_OTHERS * common.radius.powi(6);
-            let b_squared = (self.weight * own + of_others * common.bend_squared) / (self.weight + of_others);
-            (v / (2.0 * passes as f64 * b_squared)).powf(1.0 / 6.0)
+            let variance = self.noise / self.weight;
+            (variance / (2.0 * passes as f64 * self.bend_squared(common))).powf(1.0 / 6.0)
         } else {
             // Nothing was found.
             f64::INFINITY
         };
-        self.radius = Some(next.clamp(radius / LARGEST_STEP, radius * LARGEST_STEP).min(largest.max(radius)));
+        let within = next.clamp(radius / LARGEST_SHRINKAGE, radius * LARGEST_GROWTH);
+        self.radius = Some(within.min(largest.max(radius)));
+    }
+
+    /// What is expected of the squared `b`.
+    fn bend_squared(&self, common: &Common) -> f64 {
+        let (light, own) = (self.light / self.weight, self.bend / self.weight);
+        let noise = self.noise_of_bend / (self.weight * self.weight);
+        let of_all = OF_COMMON * common.bend_squared * light * light;
+        let expected = of_all + (own * own - HEARD * noise).max(0.0);
+        let trust = if noise > 0.0 { expected / (expected + noise) } else { 1.0 };
+        trust * trust * own * own + trust * noise
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use photonlab_photometry::Colour;
 
     fn found(bias: f64, noise: f64) -> Light<1> {
         Light { irradiance: Colour([1.0]), bias: Colour([bias]), noise, ..Light::default() }
@@ -106,8 +121,8 @@ mod tests {
     fn it_grows_where_nothing_is_found_and_stays_in_the_scene() {
         let mut cell = CellRadius::default();
         cell.learn(&found(0.0, 0.0), 0.1, 10, &Common::default(), 0.7);
-        assert_eq!(cell.get(1.0), 0.1 * LARGEST_STEP);
-        cell.learn(&found(0.0, 1.0), 0.3, 10, &Common::default(), 0.7);
+        assert_eq!(cell.get(1.0), 0.1 * LARGEST_GROWTH);
+        cell.learn(&found(0.0, 1.0), 0.6, 10, &Common::default(), 0.7);
         assert_eq!(cell.get(1.0), 0.7);
     }
 }

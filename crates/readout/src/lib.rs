@@ -19,6 +19,7 @@ mod maps;
 mod method;
 mod outcome;
 mod pass;
+mod pilot;
 mod probe;
 mod run;
 mod schedule;

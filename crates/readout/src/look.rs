@@ -38,12 +38,26 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) caustics: &'p CausticCells<C>,
 }
 
-/// What one sample of a cell found, in the cell's unit.
+/// What one sample of a cell, or the sum of several, found, in the cell's unit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sample<const C: usize> {
     pub(crate) light: Light<C>,
     /// True if there can be no light: the ray left the scene or met something black.
     pub(crate) dark: bool,
+}
+
+impl<const C: usize> Default for Sample<C> {
+    /// Of no samples: nothing found.
+    fn default() -> Self {
+        Self { light: Light::default(), dark: true }
+    }
+}
+
+impl<const C: usize> Sample<C> {
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.light.add(&other.light);
+        self.dark &= other.dark;
+    }
 }
 
 impl<const C: usize> Look<'_, C> {

@@ -8,15 +8,14 @@ use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Settings, Source,
+    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Source,
     bins::Bins,
     look::{Look, Sample},
-    maps::{DIRECT_VIEW_COUNT, PassMaps, Radii, SHRINK},
+    maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
     probe::{probe, shares},
     run::Run,
     session::passes_at_hand,
     trace_pass,
-    tuned::FEWEST_CELLS,
 };
 
 /// Passes for which a radius is tuned where nobody says how many there will be, or more: a run that its error ends has no fewer, so the
@@ -26,10 +25,6 @@ pub const USUAL_PASSES: u64 = 16;
 /// Of so many samples of a pixel in one pass one tells the bias of its density estimate: it costs more than the estimate, and its
 /// noise is the smaller part of the error bar.
 const TOLD_OF: u64 = 4;
-
-/// Whose photons tune: a pass that no run reads.
-const PILOT_SEED: u64 = 0;
-const PILOT_PASS: u32 = u32::MAX - 1;
 
 /// Photons of a nearest-photon estimate at least.
 const FEWEST_NEAREST: f64 = 8.0;
@@ -67,10 +62,11 @@ impl<const C: usize> Session<'_, C> {
             shares: &shares,
             caustics: &maps.in_cells,
         };
+        let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
+        let tunes = number == 0 && maps.surface.is_some() && self.settings.method.is_tuned();
+        let pilot = if tunes { self.pilot(cells, optics, schedule, source)? } else { None };
         let surface_radius = match &maps.surface {
-            Some(_) if number == 0 && self.settings.method.is_tuned() => {
-                let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
-                let pilot = self.pilot(cells, optics, schedule, source)?;
+            Some(_) if tunes => {
                 let look = Look { maps: pilot.as_ref().unwrap_or(&maps), ..look };
                 run.common = self.tuned_radius(&look, cells, passes);
                 run.k = Some(run.common.photons);
@@ -82,30 +78,18 @@ impl<const C: usize> Session<'_, C> {
         if let Method::Nearest { k } = self.settings.method {
             look.k = k.unwrap_or_else(|| shrunken(run.k, number));
         }
+        if number == 0 && self.settings.method == Method::Adaptive {
+            self.learn_from_pilot(run, &look, cells, (passes, surface_radius), pilot.as_ref());
+        }
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
-        let blocks = samples.div_ceil(BLOCK);
-        let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
-            .into_par_iter()
-            .map_init(Scratch::default, |scratch, task| {
-                let (number, block) = ((task / blocks) as usize, task % blocks);
-                let shift = look.shift(number);
-                let mut sum = Sample { light: Light::default(), dark: true };
-                for sample in block * BLOCK..((block + 1) * BLOCK).min(samples) {
-                    let one = look.sample(&cells[number], number, sample, &shift, radii[number], scratch);
-                    sum.light.add(&one.light);
-                    sum.dark &= one.dark;
-                }
-                sum
-            })
-            .collect();
+        let found = read(&look, cells, &radii);
         let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
         let probed = self.probes(cells, optics, number as u32, samples);
-        for ((index, parts), probed) in found.chunks(blocks as usize).enumerate().zip(probed) {
-            let mut light = Light::default();
-            parts.iter().for_each(|part| light.add(&part.light));
+        for ((index, Sample { mut light, dark }), probed) in found.into_iter().enumerate().zip(probed) {
             let mut mean = light.over(samples as f64);
             if self.settings.method == Method::Adaptive {
-                run.of_cells[index].learn(&mean, radii[index], number + 1, &run.common, self.largest_radius());
+                let passes = passes.max(number + 1);
+                run.of_cells[index].learn(&mean, radii[index], passes, &run.common, self.largest_radius());
             }
             mean.irradiance += probed;
             if let Some((irradiance, photons)) = maps.in_cells.of(index) {
@@ -116,7 +100,7 @@ impl<const C: usize> Session<'_, C> {
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
             let mean = mean.developed(&optics.palette);
             let cell = &mut run.cells[index];
-            cell.push(&mean, light.photons, parts.iter().all(|part| part.dark));
+            cell.push(&mean, light.photons, dark);
             cell.glints += light.glints;
             cell.rays += (samples * u64::from(self.settings.gather_rays)) as f64;
             cell.brightest_glint =
@@ -186,31 +170,6 @@ impl<const C: usize> Session<'_, C> {
             .collect()
     }
 
-    /// Maps of photons of which no pass reads any, the same whatever the run's seed, to tune few cells' radius by: by its own photons each
-    /// run would choose another, and so another bias, which the spread of its passes does not show. `None` for many cells, whose radius
-    /// hardly varies.
-    fn pilot(
-        &self,
-        cells: &[Cell],
-        optics: &Optics<C>,
-        schedule: &Schedule,
-        source: &Source<'_, C>,
-    ) -> Result<Option<PassMaps<C>>, ReadError> {
-        if cells.len() >= FEWEST_CELLS {
-            return Ok(None);
-        }
-        let count = match source {
-            Source::Trace => schedule.photons(0),
-            Source::Map(file) => file.passes[0].emitted,
-        };
-        let settings = Settings { seed: PILOT_SEED, ..self.settings };
-        let light = (self.sought(), settings.classes());
-        let photons = trace_pass(self.world, optics, &settings, light, PILOT_PASS, count)?;
-        let of = (self.world, self.needs);
-        PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
-            .map(|maps| maps.surface.is_some().then_some(maps))
-    }
-
     fn maps(
         &self,
         run: &mut Run<C>,
@@ -237,6 +196,29 @@ impl<const C: usize> Session<'_, C> {
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
     }
+}
+
+/// What the samples of each cell found together.
+pub(crate) fn read<const C: usize>(look: &Look<'_, C>, cells: &[Cell], radii: &[f64]) -> Vec<Sample<C>> {
+    let blocks = look.samples.div_ceil(BLOCK);
+    let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
+        .into_par_iter()
+        .map_init(Scratch::default, |scratch, task| {
+            let (number, block) = ((task / blocks) as usize, task % blocks);
+            let shift = look.shift(number);
+            let mut sum = Sample::default();
+            for sample in block * BLOCK..((block + 1) * BLOCK).min(look.samples) {
+                sum.add(&look.sample(&cells[number], number, sample, &shift, radii[number], scratch));
+            }
+            sum
+        })
+        .collect();
+    let of_cell = |parts: &[Sample<C>]| {
+        let mut sum = Sample::default();
+        parts.iter().for_each(|part| sum.add(part));
+        sum
+    };
+    found.chunks(blocks as usize).map(of_cell).collect()
 }
 
 /// Photons of a nearest-photon estimate, as many as were chosen in the first pass or fewer in later ones: the squared radius shrinks as

@@ -10,7 +10,7 @@ use photonlab_scene::{Ray, SurfacePoint};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, ErrorOver, Session, Target,
+    Cell, ErrorOver, Method, Session, Target,
     adaptive::Common,
     look::Look,
     maps::{DIRECT_VIEW_COUNT, SHRINK},
@@ -44,6 +44,8 @@ struct Seen {
     /// What of it the photons' noise makes on average.
     of_noise: f64,
     variance: f64,
+    /// What the light itself has of it, without its noise.
+    light_squared: f64,
     photons: f64,
     reads: f64,
     astray: f64,
@@ -59,6 +61,7 @@ impl Seen {
             bias_squared: bias * bias,
             of_noise: mean.noise_of_bias / balls.min(points),
             variance: mean.noise / balls,
+            light_squared: (mean.irradiance.0.iter().sum::<f64>() / C as f64).powi(2) - mean.noise / balls,
             photons: sum.photons,
             reads: sum.reads,
             astray: sum.astray,
@@ -145,7 +148,9 @@ impl<const C: usize> Session<'_, C> {
         let best = seen.variance / (passes as f64 * power * bias_squared);
         let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt();
         let last = (radius * best.powf(0.5 / (power + 1.0)).min(room)).min(self.largest_radius().max(first));
-        let mut widest = last * widening(passes, power);
+        // The radii of cells do not shrink while passes are as many as were expected.
+        let shrinks = self.settings.method != Method::Adaptive;
+        let mut widest = if shrinks { last * widening(passes, power) } else { last };
         // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
         if self.error_over == ErrorOver::Worst {
             let fewest = astray(0.5 * first);
@@ -153,7 +158,12 @@ impl<const C: usize> Session<'_, C> {
                 widest *= 0.8;
             }
         }
-        Common { radius: widest, photons: photons_in(widest), bend_squared: squared / (seen.cells * radius.powi(4)) }
+        let bend = squared / radius.powi(4);
+        Common {
+            radius: widest,
+            photons: photons_in(widest),
+            bend_squared: bend / seen.light_squared.max(f64::MIN_POSITIVE),
+        }
     }
 
     /// What balls of one radius show.
@@ -166,6 +176,7 @@ impl<const C: usize> Session<'_, C> {
             bias_squared: sum.bias_squared + one.bias_squared,
             of_noise: sum.of_noise + one.of_noise,
             variance: sum.variance + one.variance,
+            light_squared: sum.light_squared + one.light_squared,
             photons: sum.photons + one.photons,
             reads: sum.reads + one.reads,
             astray: sum.astray + one.astray,
