@@ -4,13 +4,13 @@ use std::time::Duration;
 
 use photonlab_gather::{AreaModel, Estimator, Kernel};
 use photonlab_photometry::UnitSystem;
-use photonlab_readout::{Direct, Method, Settings, Wanted};
+use photonlab_readout::{Direct, Draws, Method, Settings, Wanted};
 use photonlab_scene::Scene;
 use photonlab_trace::Limits;
 
 use crate::{
     Failure,
-    command::{AreaName, DeviceName, DirectName, KernelName, MethodName, Options, UnitsName},
+    command::{AreaName, DeviceName, DirectName, DrawsName, KernelName, MethodName, Options, UnitsName},
 };
 
 /// Reads even light right up to edges and into corners, where the disc reads down to a quarter; what a slope leaves is in the error
@@ -69,12 +69,21 @@ impl Options {
             direct,
             estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(1),
+            draws: self.draws(),
             seed: self.seed,
             limits: Limits {
                 max_segments: self.max_depth.or(scene.max_depth),
                 max_specular: self.max_specular.unwrap_or(Limits::default().max_specular),
             },
         })
+    }
+
+    /// How photons leave their lamps.
+    pub(crate) fn draws(&self) -> Draws {
+        match self.draws {
+            Some(DrawsName::Independent) => Draws::Independent,
+            Some(DrawsName::Spread) | None => Draws::Spread,
+        }
     }
 
     /// Counts and ends.
@@ -112,7 +121,7 @@ impl Options {
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
-    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 9] {
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 10] {
         use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
@@ -122,6 +131,7 @@ impl Options {
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
             ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive]),
             ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Bins]),
+            ("draws", self.draws.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Bins]),
             ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Path]),
             ("map", self.map.is_some(), &[FinalGather, Radius, Nearest, Adaptive]),
         ]

@@ -73,6 +73,9 @@ pub(crate) struct Options {
     /// Cache final gather's results.
     #[arg(long)]
     pub(crate) cache: bool,
+    /// How photons leave their lamps: spread evenly over directions and places, or each by itself [default: spread].
+    #[arg(long, value_enum)]
+    pub(crate) draws: Option<DrawsName>,
     /// Passes, each with photons and rays of its own.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) passes: Option<u64>,
@@ -223,6 +226,12 @@ pub(crate) enum MethodName {
     Progressive,
     Bins,
     Path,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DrawsName {
+    Spread,
+    Independent,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]

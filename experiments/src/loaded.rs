@@ -62,6 +62,7 @@ pub(crate) fn open_map<const C: usize>(
     refuse_spectral_map(loaded)?;
     for (option, given) in [
         ("photons", options.photons.is_some()),
+        ("draws", options.draws.is_some()),
         ("max-depth", options.max_depth.is_some()),
         ("max-specular", options.max_specular.is_some()),
     ] {

@@ -8,7 +8,7 @@ use std::{
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
-    Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
+    Cell, Direct, Draws, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
@@ -152,6 +152,7 @@ pub fn settings(method: Method, seed: u64) -> Settings {
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
+        draws: Draws::Spread,
         seed,
         limits: Limits::default(),
     }

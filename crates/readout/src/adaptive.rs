@@ -15,7 +15,7 @@ const OF_COMMON: f64 = 0.3;
 const HEARD: f64 = 9.0;
 
 /// What all cells have shown: where each begins, and what it believes until it knows better.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Common {
     /// Metres.
     pub(crate) radius: f64,
@@ -23,6 +23,14 @@ pub(crate) struct Common {
     pub(crate) photons: f64,
     /// Sum over the cells of the squared bias over the radius to the fourth, over that of the squared light.
     pub(crate) bend_squared: f64,
+    /// Variance over that of independent photons.
+    pub(crate) spread: f64,
+}
+
+impl Default for Common {
+    fn default() -> Self {
+        Self { radius: 0.0, photons: 0.0, bend_squared: 0.0, spread: 1.0 }
+    }
 }
 
 /// One cell's radius and what it rests on.
@@ -72,8 +80,8 @@ impl CellRadius {
             self.weight += weight;
             self.light += weight * of_channels(mean.irradiance);
             self.bend += weight * of_channels(mean.bias) / (radius * radius);
-            self.noise += weight * mean.noise * radius * radius;
-            self.noise_of_bend += (weight / (radius * radius)).powi(2) * mean.noise_of_bias;
+            self.noise += weight * common.spread * mean.noise * radius * radius;
+            self.noise_of_bend += (weight / (radius * radius)).powi(2) * common.spread * mean.noise_of_bias;
             let variance = self.noise / self.weight;
             (variance / (2.0 * passes as f64 * self.bend_squared(common))).powf(1.0 / 6.0)
         } else {

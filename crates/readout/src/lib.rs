@@ -23,6 +23,7 @@ mod pilot;
 mod probe;
 mod run;
 mod schedule;
+mod seen;
 mod session;
 mod tuned;
 
@@ -31,7 +32,7 @@ pub use checked_file::partial_name;
 pub use identity::scene_identity;
 pub use map_file::{MapFile, MapFileError, MapHeader};
 pub use maps::{PassPhotons, trace_pass};
-pub use method::{Direct, Method, Settings};
+pub use method::{Direct, Draws, Method, Settings};
 pub use outcome::{CellResult, ErrorOver, Outcome};
 pub use pass::USUAL_PASSES;
 pub use schedule::{Demands, Ends, Schedule, Wanted};

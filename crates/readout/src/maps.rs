@@ -55,6 +55,7 @@ pub fn trace_pass<const C: usize>(
     photons: u64,
 ) -> Result<PassPhotons<C>, ReadError> {
     let plan = EmissionPlan::new(&optics.lamps, photons, sought)?;
+    let plan = settings.draws.of(plan, settings.seed, pass);
     let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
     let traced = trace(world, optics, &plan, &job)?;
     Ok(PassPhotons {

@@ -1,6 +1,7 @@
 //! What to do: the method and its settings.
 
 use photonlab_gather::Estimator;
+use photonlab_sampling::EmissionPlan;
 use photonlab_trace::{Classes, Limits};
 
 /// How light at a diffuse point is found.
@@ -79,10 +80,32 @@ pub struct Settings {
     pub estimator: Estimator,
     /// Rays per gather point.
     pub gather_rays: u32,
+    /// How photons are drawn.
+    pub draws: Draws,
     /// The run's seed.
     pub seed: u64,
     /// Longest path in segments (as Mitsuba's `max_depth`) and longest specular run.
     pub limits: Limits,
+}
+
+/// How the photons of one pass leave their lamps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Draws {
+    /// Evenly spread, by scrambled Sobol points: less noise wherever light arrives by few scatterings.
+    #[default]
+    Spread,
+    /// Each by itself, as the laws of photon maps presume.
+    Independent,
+}
+
+impl Draws {
+    /// A pass's plan, drawn so.
+    pub(crate) fn of<const C: usize>(self, plan: EmissionPlan<C>, seed: u64, pass: u32) -> EmissionPlan<C> {
+        match self {
+            Draws::Spread => plan.spread(seed, pass),
+            Draws::Independent => plan,
+        }
+    }
 }
 
 impl Settings {

@@ -12,6 +12,7 @@ use crate::{
     bins::Bins,
     look::{Look, Sample},
     maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
+    pilot::Pilots,
     probe::{probe, shares},
     run::Run,
     session::passes_at_hand,
@@ -64,11 +65,11 @@ impl<const C: usize> Session<'_, C> {
         };
         let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
         let tunes = number == 0 && maps.surface.is_some() && self.settings.method.is_tuned();
-        let pilot = if tunes { self.pilot(cells, optics, schedule, source)? } else { None };
-        let surface_radius = match &maps.surface {
-            Some(_) if tunes => {
-                let look = Look { maps: pilot.as_ref().unwrap_or(&maps), ..look };
-                run.common = self.tuned_radius(&look, cells, passes);
+        let pilots = if tunes { Some(self.pilots(cells, optics, schedule, source)?) } else { None };
+        let surface_radius = match &pilots {
+            Some(Pilots { first, second }) => {
+                let looks = [first.as_ref().unwrap_or(&maps), second].map(|maps| Look { maps, ..look });
+                run.common = self.tuned_radius(&looks, cells, passes);
                 run.k = Some(run.common.photons);
                 run.radius += run.common.radius - maps.surface_radius;
                 *run.radii.surface.insert(run.common.radius)
@@ -78,8 +79,8 @@ impl<const C: usize> Session<'_, C> {
         if let Method::Nearest { k } = self.settings.method {
             look.k = k.unwrap_or_else(|| shrunken(run.k, number));
         }
-        if number == 0 && self.settings.method == Method::Adaptive {
-            self.learn_from_pilot(run, &look, cells, (passes, surface_radius), pilot.as_ref());
+        if let (Method::Adaptive, Some(pilots)) = (self.settings.method, &pilots) {
+            self.learn_from_pilots(run, &look, cells, (passes, surface_radius), pilots);
         }
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
         let found = read(&look, cells, &radii);
@@ -121,8 +122,9 @@ impl<const C: usize> Session<'_, C> {
     /// One pass of photons counted where they arrive.
     fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
         let optics = &*self.optics.of_pass(self.world, self.settings.seed, run.passes as u32);
-        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes), Sought::All)?;
         let settings = &self.settings;
+        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes), Sought::All)?;
+        let plan = settings.draws.of(plan, settings.seed, run.passes as u32);
         let job =
             Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
         let bins = Bins::new(self.world, cells);

@@ -16,47 +16,50 @@ use crate::{
 const PILOT_SEED: u64 = 0;
 const PILOT_PASS: u32 = u32::MAX - 1;
 
-/// Times that the cells read a pilot's photons, each with the radius that they chose by the last.
-const PILOT_ROUNDS: u32 = 2;
+/// The maps of two passes to tune by.
+pub(crate) struct Pilots<const C: usize> {
+    /// `None` if the run's first pass is the first.
+    pub(crate) first: Option<PassMaps<C>>,
+    pub(crate) second: PassMaps<C>,
+}
 
 impl<const C: usize> Session<'_, C> {
-    /// Maps of photons of which no pass reads any, the same whatever the run's seed, to tune few cells' radius by: by its own photons each
-    /// run would choose another, and so another bias, which the spread of its passes does not show. `None` for many cells, whose radius
-    /// hardly varies.
-    pub(crate) fn pilot(
+    /// The photons of two independent passes, to tune by. For few cells, and where each cell has a radius of its own, no pass reads them
+    /// and they are the same whatever the run's seed: by its own photons each run would choose another radius, and so another bias, which
+    /// the spread of its passes does not show. The radius of many cells hardly varies, and the first of the two is the first pass.
+    pub(crate) fn pilots(
         &self,
         cells: &[Cell],
         optics: &Optics<C>,
         schedule: &Schedule,
         source: &Source<'_, C>,
-    ) -> Result<Option<PassMaps<C>>, ReadError> {
-        if cells.len() >= FEWEST_CELLS && self.settings.method != Method::Adaptive {
-            return Ok(None);
-        }
-        let count = match source {
-            Source::Trace => schedule.photons(0),
-            Source::Map(file) => file.passes[0].emitted,
-        };
+    ) -> Result<Pilots<C>, ReadError> {
+        let few = cells.len() < FEWEST_CELLS || self.settings.method == Method::Adaptive;
         let settings = Settings { seed: PILOT_SEED, ..self.settings };
-        let light = (self.sought(), settings.classes());
-        let photons = trace_pass(self.world, optics, &settings, light, PILOT_PASS, count)?;
-        let of = (self.world, self.needs);
-        PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
-            .map(|maps| maps.surface.is_some().then_some(maps))
+        let pilot = |pass: u32| {
+            let light = (self.sought(), settings.classes());
+            let photons = match source {
+                Source::Map(file) if !few && file.passes.len() > 1 => file.passes[1].clone(),
+                Source::Map(file) => trace_pass(self.world, optics, &settings, light, pass, file.passes[0].emitted)?,
+                Source::Trace => trace_pass(self.world, optics, &settings, light, pass, schedule.photons(0))?,
+            };
+            let of = (self.world, self.needs);
+            PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
+        };
+        Ok(Pilots { first: if few { Some(pilot(PILOT_PASS - 1)?) } else { None }, second: pilot(PILOT_PASS)? })
     }
 
-    /// Lets each cell choose its first radius by the photons of a pass that is not read.
-    pub(crate) fn learn_from_pilot(
+    /// Lets each cell choose its first radius by the photons of two passes that are not read.
+    pub(crate) fn learn_from_pilots(
         &self,
         run: &mut Run<C>,
         look: &Look<'_, C>,
         cells: &[Cell],
         (passes, first): (u64, f64),
-        pilot: Option<&PassMaps<C>>,
+        pilots: &Pilots<C>,
     ) {
-        let Some(maps) = pilot else { return };
-        let look = Look { maps, ..*look };
-        for _ in 0..PILOT_ROUNDS {
+        for maps in [&pilots.second].into_iter().chain(&pilots.first) {
+            let look = Look { maps, ..*look };
             let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(first)).collect();
             for (index, found) in read(&look, cells, &radii).iter().enumerate() {
                 let mean = found.light.over(look.samples as f64);

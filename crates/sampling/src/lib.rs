@@ -24,6 +24,7 @@ mod plan;
 mod portal;
 mod rough;
 mod scatter;
+mod sobol;
 mod specular;
 mod spherical_rectangle;
 mod stream;

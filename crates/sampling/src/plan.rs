@@ -3,7 +3,7 @@
 use photonlab_photometry::Colour;
 use photonlab_scene::World;
 
-use crate::{Emission, Lamp, Lamps, Stream, aim::Aims};
+use crate::{Emission, Lamp, Lamps, Purpose, Stream, aim::Aims, sobol};
 
 /// No lamp gets less than this share of an even division, so that a weak lamp is not starved.
 const FLOOR: f64 = 0.1;
@@ -21,6 +21,8 @@ pub struct EmissionPlan<const C: usize> {
     /// First photon index of each source, and the total at the end.
     first: Vec<u64>,
     aims: Aims<C>,
+    /// Seeds of each source's quasi-random points; empty if photons are independent.
+    scrambles: Vec<[u32; sobol::DIMENSIONS]>,
 }
 
 /// A lamp's rays: those of one of its aims, or all others.
@@ -108,7 +110,18 @@ impl<const C: usize> EmissionPlan<C> {
         for (source, ends) in sources.iter_mut().zip(first.windows(2)) {
             source.flux = source.flux * (1.0 / (ends[1] - ends[0]) as f64);
         }
-        Ok(Self { sources, first, aims })
+        Ok(Self { sources, first, aims, scrambles: Vec::new() })
+    }
+
+    /// The same with photons that are spread evenly over what each source emits, by points of a quasi-random set that is another for
+    /// each seed and pass. Means over passes are unbiased, and independent from pass to pass; photons of one pass are not.
+    pub fn spread(mut self, seed: u64, pass: u32) -> Self {
+        let scramble = |source| {
+            let mut stream = Stream::new(seed, Purpose::Scrambles, pass, source);
+            std::array::from_fn(|_| stream.word())
+        };
+        self.scrambles = (0..self.sources.len() as u64).map(scramble).collect();
+        self
     }
 
     /// Photons in all.
@@ -124,7 +137,11 @@ impl<const C: usize> EmissionPlan<C> {
         index: u64,
         stream: &mut Stream,
     ) -> (usize, Emission<C>, Colour<C>) {
-        let Source { lamp, aim, flux } = self.sources[self.first.partition_point(|&first| first <= index) - 1];
+        let source = self.first.partition_point(|&first| first <= index) - 1;
+        let Source { lamp, aim, flux } = self.sources[source];
+        if let Some(seeds) = self.scrambles.get(source) {
+            stream.lead_with(sobol::point(index - self.first[source], seeds));
+        }
         let of = &lamps.lamps[lamp];
         let emission = match aim {
             Some(aim) => self.aims.emit(aim, world, of, stream),

@@ -18,6 +18,8 @@ pub enum Purpose {
     Enclosure = 6,
     /// Looks at what an aim's rays carry; the index is the aim's.
     Aims = 7,
+    /// How a pass's quasi-random photons are scrambled; the index is the source's.
+    Scrambles = 8,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }
@@ -71,9 +73,14 @@ impl Stream {
 
     /// The same stream with its leading numbers replaced by a point of a quasi-random set.
     pub fn with_prefix(mut self, point: [f64; Self::PREFIX]) -> Self {
+        self.lead_with(point);
+        self
+    }
+
+    /// Lets the point of a quasi-random set come before what else is left.
+    pub(crate) fn lead_with(&mut self, point: [f64; Self::PREFIX]) {
         self.prefix = point;
         self.prefix_left = Self::PREFIX;
-        self
     }
 
     /// The next number in (0, 1).
@@ -84,6 +91,12 @@ impl Stream {
             self.prefix_left -= 1;
             return self.prefix[Self::PREFIX - 1 - self.prefix_left];
         }
+        (f64::from(self.word()) + 0.5) / 4_294_967_296.0
+    }
+
+    /// The next 32 bits, after a prefix.
+    #[inline]
+    pub(crate) fn word(&mut self) -> u32 {
         if self.used == 4 {
             self.block = philox4x32(self.counter, self.key);
             self.counter[0] = self.counter[0].wrapping_add(1);
@@ -91,7 +104,7 @@ impl Stream {
         }
         let word = self.block[self.used];
         self.used += 1;
-        (f64::from(word) + 0.5) / 4_294_967_296.0
+        word
     }
 
     /// The next two numbers.

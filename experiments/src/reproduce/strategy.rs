@@ -1,7 +1,7 @@
 //! The strategies that claims compare.
 
 use photonlab_gather::Estimator;
-use photonlab_readout::{Direct, Method, Settings};
+use photonlab_readout::{Direct, Draws, Method, Settings};
 use photonlab_trace::Limits;
 
 /// One way to read a scene.
@@ -73,6 +73,7 @@ impl Strategy {
             direct: self.direct,
             estimator: Estimator::default(),
             gather_rays: 1,
+            draws: Draws::Independent,
             seed,
             limits: Limits::default(),
         }
