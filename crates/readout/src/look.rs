@@ -30,7 +30,7 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) samples: u64,
     /// Photons of a nearest-photon estimate.
     pub(crate) k: usize,
-    /// Of so many points one tells the bias of its estimate.
+    /// Of so many points one tells the bias of its estimate; none if zero.
     pub(crate) told_of: u64,
     /// What the weight of each cell's points needs against rays from point lamps.
     pub(crate) shares: &'p [f64],
@@ -204,6 +204,9 @@ impl<const C: usize> Look<'_, C> {
 
     /// How much the bias counts that a sample tells; zero if it tells none. The mean over all samples is 1.
     fn told(&self, sample: u64) -> f64 {
+        if self.told_of == 0 {
+            return 0.0;
+        }
         let telling = self.samples.div_ceil(self.told_of);
         if sample.is_multiple_of(self.told_of) { self.samples as f64 / telling as f64 } else { 0.0 }
     }

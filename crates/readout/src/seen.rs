@@ -1,10 +1,10 @@
-//! What balls of one radius show of bias and noise, by the photons of two independent passes.
+//! What balls of one radius show of light and noise, by the photons of two independent passes.
 
 use photonlab_final_gather::Light;
 
-/// The least and greatest power of the radius with which a bias is taken to grow: at a step of light it does not grow at all, in smooth
-/// light with the square.
-const SLOWEST: f64 = 0.25;
+/// The least and greatest power of the radius with which a bias is taken to grow: summed over cells beside a step of light its square
+/// grows with the width of the blurred strip, in smooth light with the fourth power.
+const SLOWEST: f64 = 0.5;
 const SMOOTH: f64 = 2.0;
 
 /// The least and greatest power with which a variance is taken to fall: the mean over a cell much wider than the ball hardly depends on
@@ -12,57 +12,32 @@ const SMOOTH: f64 = 2.0;
 const LEAST_FALL: f64 = 0.5;
 const FASTEST_FALL: f64 = 3.0;
 
-/// Sums over the cells of one look: squares and variances in the square of the cells' unit. What two passes agree on is there; what
-/// they differ in is noise. Nothing is presumed of how photons vary, which evenly spread ones do less than independent ones.
-#[derive(Clone, Copy, Debug, Default)]
+/// Cells read with balls of one radius. What two passes agree on is there; what they differ in is noise: nothing is presumed of how
+/// photons vary, which evenly spread ones do less than independent ones.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Seen {
-    /// Squared bias, without its noise.
-    pub(crate) bias_squared: f64,
-    /// Variance of one pass's bias.
-    pub(crate) of_noise: f64,
-    /// Variance of one pass's value.
-    pub(crate) variance: f64,
-    /// What independent photons would give.
-    pub(crate) poisson: f64,
-    /// Squared light, without its noise.
-    pub(crate) light_squared: f64,
-    pub(crate) photons: f64,
-    pub(crate) reads: f64,
-    pub(crate) astray: f64,
-    pub(crate) cells: f64,
+    /// Each cell's light in the two passes, mean over the channels, in the cells' unit.
+    light: Vec<[f64; 2]>,
+    /// Sum over the cells of one pass's variance if photons were independent.
+    poisson: f64,
+    photons: f64,
+    reads: f64,
+    astray: f64,
 }
 
 impl Seen {
-    /// Of the sums of samples at the same points of one cell, from two passes' photons.
-    pub(crate) fn new<const C: usize>(sums: &[Light<C>; 2], points: f64) -> Self {
-        let of_channels = |colour: &[f64; C]| colour.iter().sum::<f64>() / C as f64;
-        let [one, other] = sums.each_ref().map(|sum| sum.over(points));
-        let [bias, light] =
-            [[one.bias, other.bias], [one.irradiance, other.irradiance]].map(|two| two.map(|c| of_channels(&c.0)));
-        Self {
-            bias_squared: bias[0] * bias[1],
-            of_noise: 0.5 * (bias[0] - bias[1]).powi(2),
-            variance: 0.5 * (light[0] - light[1]).powi(2),
-            poisson: 0.5 * (one.noise + other.noise),
-            light_squared: light[0] * light[1],
-            photons: sums[0].photons + sums[1].photons,
-            reads: sums[0].reads + sums[1].reads,
-            astray: sums[0].astray + sums[1].astray,
-            cells: 1.0,
+    /// Of the sums of samples at the same points of each cell.
+    pub(crate) fn new<const C: usize>(sums: &[[Light<C>; 2]], points: f64) -> Self {
+        let mut seen = Self::default();
+        for pair in sums {
+            let means = pair.each_ref().map(|sum| sum.over(points));
+            seen.light.push(means.each_ref().map(|mean| mean.irradiance.0.iter().sum::<f64>() / C as f64));
+            seen.poisson += 0.5 * (means[0].noise + means[1].noise);
+            seen.photons += pair[0].photons + pair[1].photons;
+            seen.reads += pair[0].reads + pair[1].reads;
+            seen.astray += pair[0].astray + pair[1].astray;
         }
-    }
-
-    pub(crate) fn add(mut self, other: &Seen) -> Self {
-        self.bias_squared += other.bias_squared;
-        self.of_noise += other.of_noise;
-        self.variance += other.variance;
-        self.poisson += other.poisson;
-        self.light_squared += other.light_squared;
-        self.photons += other.photons;
-        self.reads += other.reads;
-        self.astray += other.astray;
-        self.cells += other.cells;
-        self
+        seen
     }
 
     /// Share of the balls that reach over edges.
@@ -70,24 +45,66 @@ impl Seen {
         self.astray / self.reads.max(1.0)
     }
 
-    /// True if the bias stands above what its noise makes by a share of that which can be told from chance: of few cells' squared noise
-    /// the sum varies much.
-    pub(crate) fn is_loud(&self, share: f64) -> bool {
-        self.bias_squared >= share * (1.0 + 12.0 / self.cells.sqrt()) * self.of_noise
+    /// Photons of a ball, on average.
+    pub(crate) fn photons_in_ball(&self) -> f64 {
+        self.photons / self.reads.max(1.0)
     }
 
-    /// The power of the radius with which the bias has grown since a look at half of it: 2 where light is smooth, less beside folds
-    /// and shadows.
-    pub(crate) fn growth_since(&self, before: &Seen) -> f64 {
+    /// Sum over the cells of one pass's variance.
+    pub(crate) fn variance(&self) -> f64 {
+        self.light.iter().map(|[one, other]| 0.5 * (one - other).powi(2)).sum()
+    }
+
+    /// Sum over the cells of the squared light, without its noise.
+    pub(crate) fn light_squared(&self) -> f64 {
+        self.light.iter().map(|[one, other]| one * other).sum()
+    }
+
+    /// Variance over that of independent photons.
+    pub(crate) fn spread(&self) -> f64 {
+        if self.poisson > 0.0 { (self.variance() / self.poisson).min(1.0) } else { 1.0 }
+    }
+
+    /// The power of the radius with which the variance falls to that of balls twice as wide.
+    pub(crate) fn fall_to(&self, wider: &Seen) -> f64 {
+        (self.variance() / wider.variance()).log2().clamp(LEAST_FALL, FASTEST_FALL)
+    }
+
+    /// What the light changes by where balls become twice as wide.
+    pub(crate) fn step_to(&self, wider: &Seen) -> Step {
+        let mut step = Step { cells: self.light.len() as f64, ..Step::default() };
+        for (narrow, wide) in self.light.iter().zip(&wider.light) {
+            let [one, other] = [wide[0] - narrow[0], wide[1] - narrow[1]];
+            step.squared += one * other;
+            step.noise += 0.5 * (one - other).powi(2);
+        }
+        step
+    }
+}
+
+/// Sums over the cells of a change of light.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Step {
+    /// Squared, without its noise.
+    pub(crate) squared: f64,
+    /// Variance of one pass's.
+    pub(crate) noise: f64,
+    cells: f64,
+}
+
+impl Step {
+    /// True if it stands above its noise by a share of what can be told from chance: of few cells' squared noise the sum varies much.
+    pub(crate) fn is_loud(&self, share: f64) -> bool {
+        self.squared >= share * (1.0 + 12.0 / self.cells.sqrt()) * self.noise
+    }
+
+    /// The power of the radius with which the bias has grown since the step before: 2 where light is smooth, less beside folds and
+    /// shadows.
+    pub(crate) fn growth_since(&self, before: &Step) -> f64 {
         if self.is_loud(0.2) && before.is_loud(0.2) {
-            (0.5 * (self.bias_squared / before.bias_squared).log2()).clamp(SLOWEST, SMOOTH)
+            (0.5 * (self.squared / before.squared).log2()).clamp(SLOWEST, SMOOTH)
         } else {
             SMOOTH
         }
-    }
-
-    /// The power of the radius with which the variance has fallen since a look at half of it.
-    pub(crate) fn fall_since(&self, before: &Seen) -> f64 {
-        (before.variance / self.variance).log2().clamp(LEAST_FALL, FASTEST_FALL)
     }
 }

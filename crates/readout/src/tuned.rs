@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use photonlab_final_gather::Light;
-use photonlab_gather::{CHECK, PhotonMap, Scratch};
+use photonlab_gather::{PhotonMap, Scratch};
 use photonlab_sampling::Sight;
 use photonlab_scene::{Ray, SurfacePoint};
 use rayon::prelude::*;
@@ -12,7 +12,7 @@ use crate::{
     adaptive::Common,
     look::Look,
     maps::{DIRECT_VIEW_COUNT, SHRINK},
-    seen::Seen,
+    seen::{Seen, Step},
 };
 
 /// Points that are looked at, spread over the cells; of more cells, some.
@@ -42,48 +42,53 @@ enum Places<'c, const C: usize> {
 impl<const C: usize> Session<'_, C> {
     /// The radius of the first pass with which the sum over cells of the squared error of `passes` passes is least, if
     /// their radii shrink as pass^(-1/6). With one pass's variances `v / r^q` and biases `b r^p` that is where
-    /// `q v / (passes r^q) = 2 p b^2 r^(2 p)`. For the nearest photons r^2 stands for their number. Both are looked at with balls of growing
-    /// radii, in two passes' photons, until the bias is heard above its own noise, and taken from there. All cells have a part in it, so
-    /// that it hardly depends on any one's photons.
+    /// `q v / (passes r^q) = 2 p b^2 r^(2 p)`. For the nearest photons r^2 stands for their number. Balls are made wider until the change of
+    /// light is heard above its noise, and powers and sizes are taken from there. All cells have a part in it, so that it hardly depends
+    /// on any one's photons.
     pub(crate) fn tuned_radius(&self, looks: &[Look<'_, C>; 2], cells: &[Cell], passes: u64) -> Common {
         let first = looks[0].maps.surface_radius;
         let places = match &looks[0].maps.surface {
             Some(map) if cells.len() < FEWEST_CELLS => self.where_photons_lie(map),
             _ => Places::Cells(cells),
         };
-        // Balls each of which tells its bias: of one radius, or of the photons that such a ball holds where photons are.
+        // Balls of one radius, or of the photons that such a ball holds where photons are.
         let photons_in = |radius: f64| DIRECT_VIEW_COUNT as f64 * (radius / first).powi(2);
-        let at = |radius| {
+        let see_at = |places: &Places<'_, C>, radius| {
             let k = (photons_in(radius).round() as usize).max(2);
-            looks.map(|look| Look { told_of: 1, k, ..look })
+            see(&looks.map(|look| Look { told_of: 0, k, ..look }), places, radius)
         };
-        let see = |radius| self.see(&at(radius), &places, radius);
-        let (mut radius, mut before, mut seen) = (first, see(0.5 * first), see(first));
-        let astray = |radius| self.see(&at(radius), &Places::Cells(cells), radius).share_astray();
+        let mut radius = 0.5 * first;
+        let mut seen = see_at(&places, radius);
+        let mut wider = see_at(&places, 2.0 * radius);
+        let mut fall = seen.fall_to(&wider);
+        let (mut before, mut step) = (Step::default(), seen.step_to(&wider));
         for _ in 0..LOOKS {
-            let photons = seen.photons / seen.reads.max(1.0);
-            let may_grow = 4.0 * photons <= MOST_PHOTONS && 2.0 * radius <= self.largest_radius();
-            if seen.is_loud(1.0) || !may_grow {
+            let may_grow = 16.0 * seen.photons_in_ball() <= MOST_PHOTONS && 4.0 * radius <= self.largest_radius();
+            if step.is_loud(1.0) || !may_grow {
                 break;
             }
             radius *= 2.0;
-            (before, seen) = (seen, see(radius));
+            seen = wider;
+            wider = see_at(&places, 2.0 * radius);
+            fall = seen.fall_to(&wider);
+            (before, step) = (step, seen.step_to(&wider));
         }
-        if seen.variance <= 0.0 {
+        let variance = seen.variance();
+        if variance <= 0.0 {
             return Common { radius: first, photons: DIRECT_VIEW_COUNT as f64, ..Common::default() };
         }
-        let (power, fall) = (seen.growth_since(&before), seen.fall_since(&before));
-        let squared = seen.bias_squared.max(LEFT * seen.of_noise);
-        // The check takes the bias to grow with the square.
-        let bias_squared = squared * ((CHECK * CHECK - 1.0) / (CHECK.powf(power) - 1.0)).powi(2);
-        let best = fall * seen.variance / (2.0 * passes as f64 * power * bias_squared);
-        let room = (MOST_PHOTONS * seen.reads / seen.photons.max(1.0)).sqrt();
+        let power = step.growth_since(&before);
+        let squared = step.squared.max(LEFT * step.noise);
+        let bias_squared = squared / (2f64.powf(power) - 1.0).powi(2);
+        let best = fall * variance / (2.0 * passes as f64 * power * bias_squared);
+        let room = (MOST_PHOTONS / seen.photons_in_ball().max(f64::MIN_POSITIVE)).sqrt();
         let last = (radius * best.powf(1.0 / (2.0 * power + fall)).min(room)).min(self.largest_radius().max(first));
         // The radii of cells do not shrink while passes are as many as were expected.
         let shrinks = self.settings.method != Method::Adaptive;
         let mut widest = if shrinks { last * widening(passes, power, fall) } else { last };
         // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
         if self.error_over == ErrorOver::Worst {
+            let astray = |radius| see_at(&Places::Cells(cells), radius).share_astray();
             let fewest = astray(0.5 * first);
             while widest > first && astray(widest) > fewest + ASTRAY {
                 widest *= 0.8;
@@ -92,18 +97,9 @@ impl<const C: usize> Session<'_, C> {
         Common {
             radius: widest,
             photons: photons_in(widest),
-            bend_squared: squared / (radius.powi(4) * seen.light_squared.max(f64::MIN_POSITIVE)),
-            spread: if seen.poisson > 0.0 { (seen.variance / seen.poisson).min(1.0) } else { 1.0 },
+            bend_squared: squared / (9.0 * radius.powi(4) * seen.light_squared().max(f64::MIN_POSITIVE)),
+            spread: seen.spread(),
         }
-    }
-
-    /// What balls of one radius show.
-    fn see(&self, looks: &[Look<'_, C>; 2], places: &Places<'_, C>, radius: f64) -> Seen {
-        let seen = match places {
-            Places::Cells(cells) => see_in_cells(looks, cells, radius),
-            Places::Photons(points) => see_at(looks, points, radius),
-        };
-        seen.iter().fold(Seen::default(), Seen::add)
     }
 
     /// Points of the scene where photons lie, spread evenly through the map.
@@ -122,11 +118,19 @@ impl<const C: usize> Session<'_, C> {
     }
 }
 
-/// What balls of one radius show in cells: all, or some of very many.
-fn see_in_cells<const C: usize>(looks: &[Look<'_, C>; 2], cells: &[Cell], radius: f64) -> Vec<Seen> {
+/// What balls of one radius show.
+fn see<const C: usize>(looks: &[Look<'_, C>; 2], places: &Places<'_, C>, radius: f64) -> Seen {
+    match places {
+        Places::Cells(cells) => see_in_cells(looks, cells, radius),
+        Places::Photons(points) => see_at(looks, points, radius),
+    }
+}
+
+/// The same in cells: all, or some of very many.
+fn see_in_cells<const C: usize>(looks: &[Look<'_, C>; 2], cells: &[Cell], radius: f64) -> Seen {
     let step = cells.len().div_ceil(POINTS).max(1);
     let points = (POINTS / cells.len().max(1)).clamp(1, looks[0].samples as usize);
-    (0..cells.len())
+    let sums: Vec<_> = (0..cells.len())
         .into_par_iter()
         .step_by(step)
         .map_init(Scratch::default, |scratch, number| {
@@ -138,18 +142,19 @@ fn see_in_cells<const C: usize>(looks: &[Look<'_, C>; 2], cells: &[Cell], radius
                 }
                 light
             };
-            Seen::new(&looks.each_ref().map(&mut see), points as f64)
+            looks.each_ref().map(&mut see)
         })
-        .collect()
+        .collect();
+    Seen::new(&sums, points as f64)
 }
 
-/// What balls of one radius show at some points.
-fn see_at<const C: usize>(looks: &[Look<'_, C>; 2], points: &[(SurfacePoint, Sight<C>)], radius: f64) -> Vec<Seen> {
+/// The same at some points.
+fn see_at<const C: usize>(looks: &[Look<'_, C>; 2], points: &[(SurfacePoint, Sight<C>)], radius: f64) -> Seen {
     let see = |scratch: &mut Scratch, (point, sight): &(SurfacePoint, Sight<C>)| {
-        let found = looks.each_ref().map(|look| look.read_map(point, sight, 0, (radius, 1.0), scratch));
-        Seen::new(&found, 1.0)
+        looks.each_ref().map(|look| look.read_map(point, sight, 0, (radius, 0.0), scratch))
     };
-    points.par_iter().map_init(Scratch::default, see).collect()
+    let found: Vec<_> = points.par_iter().map_init(Scratch::default, see).collect();
+    Seen::new(&found, 1.0)
 }
 
 /// How much wider than the best radius for all of some passes the first is to be, if they shrink as pass^(-1/6): the mean of the passes
