@@ -69,7 +69,7 @@ impl Options {
             direct,
             estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(1),
-            draws: self.draws(),
+            draws: self.draws(method)?,
             seed: self.seed,
             limits: Limits {
                 max_segments: self.max_depth.or(scene.max_depth),
@@ -79,10 +79,15 @@ impl Options {
     }
 
     /// How photons leave their lamps.
-    pub(crate) fn draws(&self) -> Draws {
-        match self.draws {
-            Some(DrawsName::Independent) => Draws::Independent,
-            Some(DrawsName::Spread) | None => Draws::Spread,
+    fn draws(&self, method: Method) -> Result<Draws, Failure> {
+        match (self.draws, method) {
+            (Some(DrawsName::Spread), Method::Nearest { .. }) => Err(Failure::usage(
+                "--method nearest presumes independent photons: of evenly spread ones it reads up to 1/(2 k) too little; leave \
+                 --draws out, or take --method radius or adaptive",
+            )),
+            (Some(DrawsName::Independent), _) => Ok(Draws::Independent),
+            (Some(DrawsName::Spread), _) => Ok(Draws::Spread),
+            (None, _) => Ok(method.usual_draws()),
         }
     }
 

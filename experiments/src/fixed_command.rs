@@ -1,7 +1,7 @@
 //! The command that gives the same bits again.
 
 use photonlab_gather::{AreaModel, Kernel};
-use photonlab_readout::{Direct, Draws, Method, Outcome, Settings, USUAL_PASSES};
+use photonlab_readout::{Direct, Method, Outcome, Settings, USUAL_PASSES};
 
 use crate::command::{Options, SceneArguments, UnitsName};
 
@@ -57,7 +57,7 @@ pub(crate) fn fixed_command<const C: usize>(
     if settings.gather_rays > 1 {
         option("gather-rays", settings.gather_rays.to_string());
     }
-    if options.map.is_none() && settings.draws == Draws::Independent && settings.method != Method::Path {
+    if options.map.is_none() && settings.draws != settings.method.usual_draws() && settings.method != Method::Path {
         option("draws", "independent".into());
     }
     match &options.map {

@@ -3,7 +3,7 @@
 use std::{fmt::Write as _, io::Write as _, path::Path};
 
 use photonlab_photometry::{PathClass, Response};
-use photonlab_readout::{Demands, MapFile, MapHeader, Schedule, Settings, Wanted, trace_pass};
+use photonlab_readout::{Demands, Draws, MapFile, MapHeader, Schedule, Settings, Wanted, trace_pass};
 use photonlab_sampling::Sought;
 use photonlab_trace::Classes;
 
@@ -50,12 +50,17 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
             )));
         }
     }
+    if options.draws.is_some() {
+        return Err(Failure::usage(
+            "the photons of a saved map are independent, so that every method can read it; leave --draws out",
+        ));
+    }
     refuse_spectral_map(loaded)?;
     let optics = optics::<C>(loaded, &arguments.scene.scene, Response::Radiometric)?;
     // The direct view's settings keep every class; which of them are stored is said by --direct.
     let mut reading = options.clone();
     reading.direct = None;
-    let settings: Settings = reading.settings(&loaded.world.scene)?;
+    let settings = Settings { draws: Draws::Independent, ..reading.settings(&loaded.world.scene)? };
     let classes = match options.direct {
         Some(DirectName::Sampled) => Classes { direct: false, ..Classes::ALL },
         Some(DirectName::Photons) | None => Classes::ALL,

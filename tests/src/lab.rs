@@ -8,7 +8,7 @@ use std::{
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
-    Cell, Direct, Draws, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
+    Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
@@ -93,8 +93,23 @@ impl Lab {
 
     /// Follows the photons of one pass that seek some light; positions are the scene's own, not the map's.
     pub fn trace_for<const C: usize>(&self, sought: Sought, photons: u64, job: Job) -> Traced<C> {
+        self.follow(sought, photons, job, |plan| plan)
+    }
+
+    /// The same of photons that are evenly spread over what their lamps emit.
+    pub fn trace_spread<const C: usize>(&self, sought: Sought, photons: u64, job: Job) -> Traced<C> {
+        self.follow(sought, photons, job, |plan| plan.spread(job.seed, job.pass))
+    }
+
+    fn follow<const C: usize>(
+        &self,
+        sought: Sought,
+        photons: u64,
+        job: Job,
+        drawn: impl FnOnce(EmissionPlan<C>) -> EmissionPlan<C>,
+    ) -> Traced<C> {
         let optics = Optics::new(&self.world, Palette::Channels);
-        let plan = EmissionPlan::new(&optics.lamps, photons, sought).expect("photons for every lamp");
+        let plan = drawn(EmissionPlan::new(&optics.lamps, photons, sought).expect("photons for every lamp"));
         let mut traced = trace(&self.world, &optics, &plan, &job).expect("a scene that absorbs");
         let middle = self.world.middle().to_array();
         for position in &mut traced.positions {
@@ -152,7 +167,7 @@ pub fn settings(method: Method, seed: u64) -> Settings {
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
-        draws: Draws::Spread,
+        draws: method.usual_draws(),
         seed,
         limits: Limits::default(),
     }

@@ -1,4 +1,5 @@
-//! Photons aimed at what is specular bring the light that photons bring that leave as their lamp shines.
+//! Photons aimed at what is specular, and evenly spread ones, bring the light that photons bring that leave as their lamp shines, each by
+//! itself.
 
 use photonlab_measure::{Replicates, welch_test};
 use photonlab_photometry::PathClass;
@@ -74,29 +75,33 @@ fn figures(traced: &Traced<1>) -> [f64; 7] {
     [traced.ledger.emitted[0], arrives(0), arrives(1), arrives(2), arrives(3), sum(|_| 1.0), sum(moment)]
 }
 
-fn found(lab: &Lab, sought: Sought, seed: u32) -> [Replicates; 7] {
+fn found(seed: u32, trace: impl Fn(Job) -> Traced<1>) -> [Replicates; 7] {
     let all: Vec<[f64; 7]> = (0..PASSES)
         .map(|pass| {
             let job = Job { seed: photonlab_tests::seed(seed), pass, limits: Limits::default(), keep: Classes::ALL };
-            figures(&lab.trace_for::<1>(sought, PHOTONS, job))
+            figures(&trace(job))
         })
         .collect();
     std::array::from_fn(|i| all.iter().map(|figures| figures[i]).collect())
 }
 
 #[test]
-fn aimed_photons_bring_the_same_light() {
-    let mut family = Family::new("aimed photons");
+fn aimed_and_spread_photons_bring_the_same_light() {
+    let mut family = Family::new("aimed and spread photons");
     for (number, (name, lamp)) in lamps().into_iter().enumerate() {
         let lab = Lab::beside("wedge.obj", WEDGE, &format!("{BENCH}{lamp}"));
-        let seed = 1700 + 3 * number as u32;
-        let plain = found(&lab, Sought::AsEmitted, seed);
-        for (place, sought) in [Sought::All, Sought::Caustics].into_iter().enumerate() {
-            let aimed = found(&lab, sought, seed + 1 + place as u32);
-            for (what, (aimed, plain)) in FIGURES.iter().zip(aimed.iter().zip(&plain)) {
-                let p_value = welch_test(aimed, plain).map_or(f64::NAN, |test| test.p_value);
-                let (a, b) = (aimed.mean(), plain.mean());
-                family.compare(format!("{name}, {sought:?}: {what}"), p_value, format!("{a:?} for {b:?}"));
+        let seed = 1700 + 4 * number as u32;
+        let plain = found(seed, |job| lab.trace_for(Sought::AsEmitted, PHOTONS, job));
+        let others = [
+            ("aimed", found(seed + 1, |job| lab.trace_for(Sought::All, PHOTONS, job))),
+            ("aimed alone", found(seed + 2, |job| lab.trace_for(Sought::Caustics, PHOTONS, job))),
+            ("spread", found(seed + 3, |job| lab.trace_spread(Sought::All, PHOTONS, job))),
+        ];
+        for (how, other) in others {
+            for (what, (other, plain)) in FIGURES.iter().zip(other.iter().zip(&plain)) {
+                let p_value = welch_test(other, plain).map_or(f64::NAN, |test| test.p_value);
+                let (a, b) = (other.mean(), plain.mean());
+                family.compare(format!("{name}, {how}: {what}"), p_value, format!("{a:?} for {b:?}"));
             }
         }
     }

@@ -45,6 +45,15 @@ impl Method {
         matches!(self, Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive)
     }
 
+    /// How photons are drawn if nobody says: evenly, but for the k nearest. The flux of k - 1 over the area of the k-th one's ball is right
+    /// where photons are independent; of evenly spread ones that ball ends halfway between two, and reads up to 1/(2 k) too little.
+    pub fn usual_draws(&self) -> Draws {
+        match self {
+            Method::Nearest { .. } => Draws::Independent,
+            _ => Draws::Spread,
+        }
+    }
+
     /// The method's name on the command line and in results.
     pub fn name(&self) -> &'static str {
         match self {
@@ -92,9 +101,9 @@ pub struct Settings {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Draws {
     /// Evenly spread, by scrambled Sobol points: less noise wherever light arrives by few scatterings.
-    #[default]
     Spread,
     /// Each by itself, as the laws of photon maps presume.
+    #[default]
     Independent,
 }
 

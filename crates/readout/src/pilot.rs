@@ -3,7 +3,7 @@
 use photonlab_sampling::Optics;
 
 use crate::{
-    Cell, Method, ReadError, Schedule, Session, Settings, Source,
+    Cell, Draws, Method, ReadError, Schedule, Session, Settings, Source,
     look::Look,
     maps::{PassMaps, Radii},
     pass::read,
@@ -35,7 +35,11 @@ impl<const C: usize> Session<'_, C> {
         source: &Source<'_, C>,
     ) -> Result<Pilots<C>, ReadError> {
         let few = cells.len() < FEWEST_CELLS || self.settings.method == Method::Adaptive;
-        let settings = Settings { seed: PILOT_SEED, ..self.settings };
+        let draws = match source {
+            Source::Trace => self.settings.draws,
+            Source::Map(_) => Draws::Independent,
+        };
+        let settings = Settings { seed: PILOT_SEED, draws, ..self.settings };
         let pilot = |pass: u32| {
             let light = (self.sought(), settings.classes());
             let photons = match source {

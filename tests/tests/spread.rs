@@ -1,0 +1,50 @@
+//! Evenly spread photons: less noise with a fixed radius, and not for the k nearest, which presume that photons are independent.
+
+use photonlab_readout::{Direct, Draws, Method, Settings};
+use photonlab_tests::{Family, Lab, seed, settings};
+
+/// Parallel light on a large floor, read from the map at its middle: 2 W/m^2, all of it reflected by a factor 1.
+const FLOOR: &str = r#"<scene version="3.0.0"><shape type="rectangle" id="floor"><bsdf type="diffuse">
+    <rgb name="reflectance" value="1"/></bsdf></shape>
+    <emitter type="directional"><vector name="direction" x="0" y="0" z="-1"/><rgb name="irradiance" value="2"/></emitter>
+    <sensor type="radiancemeter" id="middle"><transform name="to_world"><lookat origin="0.03 0.02 1" target="0.03 0.02 0"
+    up="0 1 0"/></transform></sensor></scene>"#;
+
+const PHOTONS: u64 = 1 << 18;
+const PASSES: u64 = 64;
+
+fn by_photons(method: Method, draws: Draws, number: u32) -> Settings {
+    Settings { direct: Direct::Photons, draws, ..settings(method, seed(number)) }
+}
+
+/// The k nearest, drawn as they are if nobody says otherwise, read even light right; of evenly spread photons they read half a photon too
+/// little, which no error bar tells.
+#[test]
+fn the_nearest_photons_read_even_light_right() {
+    let lab = Lab::new(FLOOR);
+    let expected = 2.0 / std::f64::consts::PI;
+    let mut family = Family::new("nearest, as drawn");
+    for (number, k) in [8, 12, 20].into_iter().enumerate() {
+        let method = Method::Nearest { k: Some(k) };
+        let read = |draws| lab.measure::<1>(by_photons(method, draws, 1760 + number as u32), PHOTONS, PASSES, PASSES);
+        family.mean(format!("k = {k}"), &read(method.usual_draws()).cells[0].value[0], expected);
+        let spread = read(Draws::Spread).cells[0].value[0].mean().expect("passes");
+        println!("k = {k}: evenly spread photons read {spread} for {expected}");
+        let low = 1.0 - 0.2 / k as f64;
+        assert!(spread < low * expected, "k = {k}: {spread} for {expected}, if photons are evenly spread");
+    }
+    family.decide();
+}
+
+/// A ball of a hundred photons under parallel light: what the count varies by is its edge.
+#[test]
+fn a_fixed_radius_reads_spread_photons_with_less_noise() {
+    let lab = Lab::new(FLOOR);
+    let method = Method::Radius { radius: Some(0.15) };
+    let noise = |draws, number| {
+        let outcome = lab.measure::<1>(by_photons(method, draws, number), PHOTONS, PASSES, PASSES);
+        outcome.cells[0].value[0].std_error().expect("passes")
+    };
+    let (spread, independent) = (noise(Draws::Spread, 1764), noise(Draws::Independent, 1765));
+    assert!(spread < 0.6 * independent, "standard errors {spread} and {independent}");
+}
