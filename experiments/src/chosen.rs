@@ -37,7 +37,8 @@ impl Options {
         }
         let method = match name {
             MethodName::Nearest => Method::Nearest { k: self.k.map(|k| usize::try_from(k).unwrap_or(usize::MAX)) },
-            MethodName::Radius => Method::Radius { radius: self.radius },
+            // Without a radius of the user's own, that method is the progressive one: tuned, and shrinking from pass to pass.
+            MethodName::Radius | MethodName::Progressive => Method::Radius { radius: self.radius },
             MethodName::Adaptive => Method::Adaptive,
             MethodName::Path => Method::Path,
             MethodName::Bins => Method::Bins,
@@ -69,7 +70,7 @@ impl Options {
             direct,
             estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(1),
-            draws: self.draws(method)?,
+            draws: self.draws(method),
             seed: self.seed,
             limits: Limits {
                 max_segments: self.max_depth.or(scene.max_depth),
@@ -79,15 +80,11 @@ impl Options {
     }
 
     /// How photons leave their lamps.
-    fn draws(&self, method: Method) -> Result<Draws, Failure> {
-        match (self.draws, method) {
-            (Some(DrawsName::Spread), Method::Nearest { .. }) => Err(Failure::usage(
-                "--method nearest presumes independent photons: of evenly spread ones it reads up to 1/(2 k) too little; leave \
-                 --draws out, or take --method radius or adaptive",
-            )),
-            (Some(DrawsName::Independent), _) => Ok(Draws::Independent),
-            (Some(DrawsName::Spread), _) => Ok(Draws::Spread),
-            (None, _) => Ok(method.usual_draws()),
+    fn draws(&self, method: Method) -> Draws {
+        match self.draws {
+            Some(DrawsName::Independent) => Draws::Independent,
+            Some(DrawsName::Spread) => Draws::Spread,
+            None => method.usual_draws(),
         }
     }
 
@@ -127,27 +124,28 @@ impl Options {
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
     fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 10] {
-        use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Radius};
+        use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Progressive, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
             ("radius", self.radius.is_some(), &[FinalGather, Radius]),
-            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest, Adaptive]),
-            ("area", self.area.is_some(), &[Radius, Nearest, Adaptive]),
+            ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive]),
+            ("area", self.area.is_some(), &[Radius, Nearest, Adaptive, Progressive]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
-            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive]),
-            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Bins]),
-            ("draws", self.draws.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Bins]),
-            ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Path]),
-            ("map", self.map.is_some(), &[FinalGather, Radius, Nearest, Adaptive]),
+            ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive, Progressive]),
+            ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive, Bins]),
+            ("draws", self.draws.is_some(), &[FinalGather, Radius, Adaptive, Progressive, Bins]),
+            ("spp", self.spp.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive, Path]),
+            ("map", self.map.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive]),
         ]
     }
 
     fn refuse_what_is_not_built(&self) -> Result<(), Failure> {
-        let not_built = match self.method {
-            MethodName::Progressive => Some("--method progressive"),
-            _ if self.cache => Some("--cache"),
-            _ if self.device == DeviceName::Gpu => Some("--device gpu"),
-            _ => None,
+        let not_built = if self.cache {
+            Some("--cache")
+        } else if self.device == DeviceName::Gpu {
+            Some("--device gpu")
+        } else {
+            None
         };
         match not_built {
             Some(what) => Err(Failure::usage(format!("{what} is not built yet; leave it out"))),

@@ -45,7 +45,7 @@ pub(crate) struct SceneArguments {
 /// How light is found, shared by `measure`, `render` and `map build`.
 #[derive(Args, Clone)]
 pub(crate) struct Options {
-    /// How light at a point is found.
+    /// How light at a point is found; progressive is radius without --radius: tuned, and shrinking from pass to pass.
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) method: MethodName,
     /// Where direct light comes from when the map is read at the point itself [default: sampled].
@@ -73,7 +73,8 @@ pub(crate) struct Options {
     /// Cache final gather's results.
     #[arg(long)]
     pub(crate) cache: bool,
-    /// How photons leave their lamps: spread evenly over directions and places, or each by itself [default: spread].
+    /// How photons leave their lamps: spread evenly over directions and places, or each by itself; the k nearest read independent
+    /// ones alone [default: spread].
     #[arg(long, value_enum)]
     pub(crate) draws: Option<DrawsName>,
     /// Passes, each with photons and rays of its own.

@@ -112,11 +112,9 @@ impl<const C: usize> Session<'_, C> {
         Ok(())
     }
 
-    /// Of so many samples in one pass one tells its bias: all do where every reading has an error bar to be signed, or radii rest on what
-    /// they tell.
+    /// Of so many samples in one pass one tells its bias: all do where every reading has an error bar to be signed.
     fn told_of(&self) -> u64 {
-        let few = self.error_over == ErrorOver::Worst || self.settings.method == Method::Adaptive;
-        if few { 1 } else { TOLD_OF }
+        if self.error_over == ErrorOver::Worst { 1 } else { TOLD_OF }
     }
 
     /// One pass of photons counted where they arrive.
