@@ -22,7 +22,6 @@ pub(crate) struct Seen {
     poisson: f64,
     photons: f64,
     reads: f64,
-    astray: f64,
 }
 
 impl Seen {
@@ -35,14 +34,8 @@ impl Seen {
             seen.poisson += 0.5 * (means[0].noise + means[1].noise);
             seen.photons += pair[0].photons + pair[1].photons;
             seen.reads += pair[0].reads + pair[1].reads;
-            seen.astray += pair[0].astray + pair[1].astray;
         }
         seen
-    }
-
-    /// Share of the balls that reach over edges.
-    pub(crate) fn share_astray(&self) -> f64 {
-        self.astray / self.reads.max(1.0)
     }
 
     /// Photons of a ball, on average.

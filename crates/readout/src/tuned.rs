@@ -17,6 +17,8 @@ use crate::{
 
 /// Points that are looked at, spread over the cells; of more cells, some.
 const POINTS: usize = 4096;
+/// And points whose balls are asked whether they reach over edges.
+const POINTS_ASTRAY: usize = 1024;
 /// Fewer cells than this are not looked at themselves.
 pub(crate) const FEWEST_CELLS: usize = 256;
 /// A photon's surface is sought from so far, over the scene's size: its place is known to some 1e-7.
@@ -45,7 +47,7 @@ impl<const C: usize> Session<'_, C> {
     /// `q v / (passes r^q) = 2 p b^2 r^(2 p)`. For the nearest photons r^2 stands for their number. Balls are made wider until the change of
     /// light is heard above its noise, and powers and sizes are taken from there. All cells have a part in it, so that it hardly depends
     /// on any one's photons.
-    pub(crate) fn tuned_radius(&self, looks: &[Look<'_, C>; 2], cells: &[Cell], passes: u64) -> Common {
+    pub(crate) fn tuned_radius<'p>(&self, looks: &[Look<'p, C>; 2], cells: &[Cell], passes: u64) -> Common {
         let first = looks[0].maps.surface_radius;
         let places = match &looks[0].maps.surface {
             Some(map) if cells.len() < FEWEST_CELLS => self.where_photons_lie(map),
@@ -53,13 +55,14 @@ impl<const C: usize> Session<'_, C> {
         };
         // Balls of one radius, or of the photons that such a ball holds where photons are.
         let photons_in = |radius: f64| DIRECT_VIEW_COUNT as f64 * (radius / first).powi(2);
-        let see_at = |places: &Places<'_, C>, radius| {
+        let with = |look: Look<'p, C>, radius| {
             let k = (photons_in(radius).round() as usize).max(2);
-            see(&looks.map(|look| Look { told_of: 0, k, ..look }), places, radius)
+            Look { told_of: 0, k, ..look }
         };
+        let seen_by = |radius| see(&looks.map(|look| with(look, radius)), &places, radius);
         let mut radius = 0.5 * first;
-        let mut seen = see_at(&places, radius);
-        let mut wider = see_at(&places, 2.0 * radius);
+        let mut seen = seen_by(radius);
+        let mut wider = seen_by(2.0 * radius);
         let mut fall = seen.fall_to(&wider);
         let (mut before, mut step) = (Step::default(), seen.step_to(&wider));
         for _ in 0..LOOKS {
@@ -69,7 +72,7 @@ impl<const C: usize> Session<'_, C> {
             }
             radius *= 2.0;
             seen = wider;
-            wider = see_at(&places, 2.0 * radius);
+            wider = seen_by(2.0 * radius);
             fall = seen.fall_to(&wider);
             (before, step) = (step, seen.step_to(&wider));
         }
@@ -88,7 +91,7 @@ impl<const C: usize> Session<'_, C> {
         let mut widest = if shrinks { last * widening(passes, power, fall) } else { last };
         // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
         if self.error_over == ErrorOver::Worst {
-            let astray = |radius| see_at(&Places::Cells(cells), radius).share_astray();
+            let astray = |radius| share_astray(&with(looks[0], radius), cells, radius);
             let fewest = astray(0.5 * first);
             while widest > first && astray(widest) > fewest + ASTRAY {
                 widest *= 0.8;
@@ -155,6 +158,21 @@ fn see_at<const C: usize>(looks: &[Look<'_, C>; 2], points: &[(SurfacePoint, Sig
     };
     let found: Vec<_> = points.par_iter().map_init(Scratch::default, see).collect();
     Seen::new(&found, 1.0)
+}
+
+/// Share of the balls of one radius in cells that reach over edges.
+fn share_astray<const C: usize>(look: &Look<'_, C>, cells: &[Cell], radius: f64) -> f64 {
+    let points = (POINTS_ASTRAY / cells.len().max(1)).clamp(1, look.samples as usize);
+    let of_cell = |scratch: &mut Scratch, (number, cell): (usize, &Cell)| {
+        let (mut light, shift) = (Light::<C>::default(), look.shift(number));
+        for sample in 0..points as u64 {
+            light.add(&look.sample(cell, number, sample, &shift, radius, scratch).light);
+        }
+        [light.astray, light.reads]
+    };
+    let found: Vec<_> = cells.par_iter().enumerate().map_init(Scratch::default, of_cell).collect();
+    let [astray, reads] = found.into_iter().fold([0.0; 2], |[a, r], [astray, reads]| [a + astray, r + reads]);
+    astray / f64::max(reads, 1.0)
 }
 
 /// How much wider than the best radius for all of some passes the first is to be, if they shrink as pass^(-1/6): the mean of the passes
