@@ -132,18 +132,19 @@ fn an_image_carries_the_command_that_gives_its_bytes() {
     assert_eq!(names[7..], ["std_error.B", "std_error.G", "std_error.R"]);
 }
 
-/// Reading a saved map is the run that traced it.
+/// Reading a saved map is the run that traced it, with independent photons as those of maps are.
 #[test]
 fn a_saved_map_reads_as_the_run_that_traced_it() {
     let program = program();
-    for (name, method) in [
-        ("cube.xml", "--method final-gather"),
-        ("cube.xml", "--method nearest --k 20"),
-        ("integrating-sphere.xml", "--method radius --direct photons"),
+    for (name, method, draws) in [
+        ("cube.xml", "--method final-gather", "--draws independent"),
+        ("cube.xml", "--method nearest --k 20", ""),
+        ("integrating-sphere.xml", "--method radius --direct photons", "--draws independent"),
     ] {
         let scene = scene(name);
         program.succeed(&format!("map build {scene} -o photons.map --photons 30001 --passes 5 --seed 8"));
-        let traced = program.measure(&format!("{scene} {method} --photons 30001 --passes 5 --spp 320 --seed 8"));
+        let traced =
+            program.measure(&format!("{scene} {method} {draws} --photons 30001 --passes 5 --spp 320 --seed 8"));
         let read = program.measure(&format!("{scene} {method} --map photons.map --passes 5 --spp 320 --seed 8"));
         for part in ["readings", "ledger", "photons"] {
             assert_eq!(traced[part], read[part], "{part} of {name} {method}");

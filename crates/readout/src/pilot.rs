@@ -42,11 +42,11 @@ impl<const C: usize> Session<'_, C> {
         let settings = Settings { seed: PILOT_SEED, draws, ..self.settings };
         let pilot = |pass: u32| {
             let light = (self.sought(), settings.classes());
-            let photons = match source {
-                Source::Map(file) if !few && file.passes.len() > 1 => file.passes[1].clone(),
-                Source::Map(file) => trace_pass(self.world, optics, &settings, light, pass, file.passes[0].emitted)?,
-                Source::Trace => trace_pass(self.world, optics, &settings, light, pass, schedule.photons(0))?,
+            let count = match source {
+                Source::Map(file) => file.passes[0].emitted,
+                Source::Trace => schedule.photons(0),
             };
+            let photons = trace_pass(self.world, optics, &settings, light, pass, count)?;
             let of = (self.world, self.needs);
             PassMaps::build(photons, of, cells, &settings, 0, &mut Radii::default())
         };
