@@ -10,8 +10,9 @@ const FLOOR: &str = r#"<scene version="3.0.0"><shape type="rectangle" id="floor"
     <sensor type="radiancemeter" id="middle"><transform name="to_world"><lookat origin="0.03 0.02 1" target="0.03 0.02 0"
     up="0 1 0"/></transform></sensor></scene>"#;
 
-const PHOTONS: u64 = 1 << 18;
-const PASSES: u64 = 64;
+/// Few photons a pass and many passes: one of the k nearest is one of few, and its half is seen through their noise.
+const PHOTONS: u64 = 1 << 20;
+const PASSES: u64 = 2048;
 
 fn by_photons(method: Method, draws: Draws, number: u32) -> Settings {
     Settings { direct: Direct::Photons, draws, ..settings(method, seed(number)) }
