@@ -49,3 +49,23 @@ fn a_fixed_radius_reads_spread_photons_with_less_noise() {
     let (spread, independent) = (noise(Draws::Spread, 1764), noise(Draws::Independent, 1765));
     assert!(spread < 0.6 * independent, "standard errors {spread} and {independent}");
 }
+
+/// A cap of directions that gets 512.002 of a pass's 4096 photons: the count hardly ever varies, and what is missing is in no spread.
+#[test]
+fn counts_that_agree_do_not_claim_to_be_exact() {
+    let share = 512.002 / 4096.0;
+    let cosine: f64 = 1.0 - 2.0 * share;
+    let radius = (1.0 - cosine * cosine).sqrt() / cosine;
+    let lab = Lab::new(&format!(
+        r#"<scene version="3.0.0"><emitter type="point"><point name="position" x="0" y="0" z="1"/><rgb name="intensity" value="1"/>
+        </emitter><shape type="disk" id="cap"><transform name="to_world"><scale value="{radius}"/></transform>
+        <sensor type="fluxmeter" id="flux"/></shape></scene>"#
+    ));
+    let method = Method::Bins;
+    let cell = &lab.measure::<1>(settings(method, seed(1768)), 16 * 4096, 16, 16).cells[0];
+    let (value, truth) = (cell.value[0].mean().expect("passes"), 4.0 * std::f64::consts::PI * share);
+    let half = cell.half_width(0, 0.95).expect("passes");
+    println!("{value} +- {half} for {truth}, standard error {:?}", cell.value[0].std_error());
+    assert!((value - truth).abs() > 1e-7 * truth, "it is not met by chance");
+    assert!((value - truth).abs() <= half && half < 0.01 * truth, "{value} +- {half} for {truth}");
+}

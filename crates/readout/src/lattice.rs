@@ -1,13 +1,18 @@
 //! A quasi-random point set that is good at any length.
 
-/// Dimensions: three for the point on the receiver, three for the lamp, two for the direction, and one for a lens, whose
-/// other one is the receiver's third.
-pub(crate) const DIMENSIONS: usize = 9;
+use photonlab_sampling::Stream;
+
+/// Dimensions: three for the point on the receiver, three for the lamp, two for the direction, one for a lens, whose
+/// other one is the receiver's third, and some for the path from an eye.
+pub(crate) const DIMENSIONS: usize = 9 + Stream::PREFIX;
 
 /// The first components of the generating vector of the embedded lattice rule `exod2_base2_m20` (Cools, Kuo and Nuyens,
 /// "Constructing embedded lattice rules for multivariate integration", SIAM J. Sci. Comput. 2006), which is good for every
 /// power of two of points up to 2^20. The most important dimensions take the first components.
-const GENERATOR: [u32; DIMENSIONS] = [182_667, 469_891, 446_979, 250_185, 1, 498_753, 110_745, 118_627, 245_333];
+const GENERATOR: [u32; DIMENSIONS] = [
+    182_667, 469_891, 446_979, 250_185, 1, 498_753, 110_745, 118_627, 245_333, 283_199, 408_519, 391_023, 246_327,
+    126_539,
+];
 
 /// Point number `index` of the lattice in the order of van der Corput, moved by `shift` around the unit cube (Cranley and
 /// Patterson 1976). With independent shifts the means of two sets are independent and unbiased.

@@ -79,8 +79,8 @@ impl<const C: usize> Look<'_, C> {
     ) -> Sample<C> {
         let rays = u64::from(self.settings.gather_rays);
         let first = (number as u64 * self.samples + sample) * (rays + 1);
-        let mut eye = self.stream(first);
-        let [x, y, z, .., last] = lattice::point(sample * rays, shift);
+        let [x, y, z, _, _, _, _, _, last, on_the_way @ ..] = lattice::point(sample * rays, shift);
+        let mut eye = self.stream(first).with_prefix(on_the_way);
         let (start, reach) = match &cell.target {
             Target::Leaving { .. } => return Sample { light: Light::default(), dark: false },
             Target::Patch { shape, film, .. } => {
@@ -167,8 +167,9 @@ impl<const C: usize> Look<'_, C> {
         let rays = self.settings.gather_rays;
         let mut light = Light::default();
         for ray in 0..rays {
-            let [_, _, _, rest @ .., _] = lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
-            let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix(rest);
+            let [_, _, _, a, b, c, d, e, ..] =
+                lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
+            let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix([a, b, c, d, e]);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {
                     let maps =

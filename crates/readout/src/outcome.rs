@@ -42,7 +42,12 @@ pub struct CellResult<const C: usize> {
     /// The most that one such ray can add to a value, per channel: the brightest lamp all around. `None` where the method or the
     /// scene knows no such light, or a lamp has no extent, which no ray meets.
     pub brightest_glint: Option<Colour<C>>,
+    /// Sum over the passes of what one photon more or less would change a pass's value by, per channel; zero where that is not asked.
+    pub grain: [f64; C],
 }
+
+/// Of n passes whose counts agree, one photon more or less may be due in 1 - 0.0001^(1/n) < 9.21 / n of all (as in the rule of three).
+const GRAIN: f64 = 9.21;
 
 /// Glints, or photons, from which on their own spread says how many more there may be.
 pub(crate) const ENOUGH: f64 = 30.0;
@@ -63,6 +68,7 @@ impl<const C: usize> Default for CellResult<C> {
             glints: 0.0,
             rays: 0.0,
             brightest_glint: None,
+            grain: [0.0; C],
         }
     }
 }
@@ -100,14 +106,20 @@ impl<const C: usize> CellResult<C> {
         }
     }
 
+    /// Bound on what all passes can miss together where evenly spread photons are counted: the count of a cell that has nearly a whole
+    /// number of them hardly ever varies, and then its spread says nothing of the rest.
+    fn grain_bound(&self, channel: usize) -> f64 {
+        let passes = self.value[channel].len() as f64;
+        if passes > 0.0 { GRAIN * self.grain[channel] / (passes * passes) } else { 0.0 }
+    }
+
     /// True if no light was found and darkness was not proved.
     pub fn found_nothing(&self) -> bool {
         !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
     }
 
     /// Bound on the bias of a channel at a confidence: the estimated kernel bias with as much of its own uncertainty as the reading's
-    /// interval needs, three times what was
-    /// gathered across edges, and [`CellResult::rare_bound`].
+    /// interval needs, three times what was gathered across edges, [`CellResult::rare_bound`], and what counts can hide that all agree.
     pub fn bias_bound(&self, channel: usize, confidence: f64) -> f64 {
         let degrees = self.bias[channel].degrees_of_freedom();
         self.bias_bound_within(channel, if degrees > 0.0 { student_t_quantile(confidence, degrees) } else { 0.0 })
@@ -115,7 +127,7 @@ impl<const C: usize> CellResult<C> {
 
     /// The same from a quantile of Student's t, which one search finds for all cells of an image.
     pub fn bias_bound_within(&self, channel: usize, quantile: f64) -> f64 {
-        self.lasting_bias_within(channel, quantile) + self.rare_bound(channel)
+        self.lasting_bias_within(channel, quantile) + self.rare_bound(channel) + self.grain_bound(channel)
     }
 
     /// The part of it that more rays of the same do not mend.
@@ -191,7 +203,8 @@ impl ErrorOver {
                 cell.value[c].std_error().unwrap_or(0.0) + OF_BIAS_NOISE * cell.bias[c].std_error().unwrap_or(0.0);
             let known = cell.bias[c].mean().unwrap_or(0.0).abs()
                 + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs()
-                + cell.rare_bound(c);
+                + cell.rare_bound(c)
+                + cell.grain_bound(c);
             t * noise + known
         })
     }

@@ -8,7 +8,7 @@ use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
 use crate::{
-    Cell, Direct, ErrorOver, Method, ReadError, Schedule, Session, Source,
+    Cell, Direct, Draws, ErrorOver, Method, ReadError, Schedule, Session, Source,
     bins::Bins,
     look::{Look, Sample},
     maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
@@ -130,7 +130,15 @@ impl<const C: usize> Session<'_, C> {
         for (index, cell) in run.cells.iter_mut().enumerate() {
             let irradiance = counted.flux[index] * (1.0 / bins.measure[index]);
             let light = Light { irradiance, reads: 1.0, ..Light::default() };
-            cell.push(&light.developed(&optics.palette), counted.photons[index] as f64, false);
+            let developed = light.developed(&optics.palette);
+            let photons = counted.photons[index] as f64;
+            cell.push(&developed, photons, false);
+            if settings.draws == Draws::Spread && photons > 0.0 {
+                cell.grain
+                    .iter_mut()
+                    .zip(developed.irradiance.0)
+                    .for_each(|(sum, value)| *sum += value.abs() / photons);
+            }
         }
         run.book(plan.photons(), &counted.ledger.map(|flux| optics.palette.develop(flux)));
         run.passes += 1;
