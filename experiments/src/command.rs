@@ -54,10 +54,10 @@ pub(crate) struct Options {
     /// Emitted paths in all, over lamps and passes.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) photons: Option<u64>,
-    /// Photons of a nearest-photon estimate [default: from scene and photons, by a look at the first pass].
+    /// Photons of a nearest-photon estimate [default: from scene and photons, by a look at two passes].
     #[arg(long, value_name = "K", allow_negative_numbers = true, value_parser = number::positive_count)]
     pub(crate) k: Option<u64>,
-    /// Gather radius in metres [default: from scene and photons, by a look at the first pass].
+    /// Gather radius in metres [default: from scene and photons, by a look at two passes].
     #[arg(long, value_name = "R", allow_negative_numbers = true, value_parser = number::positive)]
     pub(crate) radius: Option<f64>,
     /// Weight of a photon by its distance [default: disc].
@@ -73,8 +73,8 @@ pub(crate) struct Options {
     /// Cache final gather's results.
     #[arg(long)]
     pub(crate) cache: bool,
-    /// How photons leave their lamps: spread evenly over directions and places, or each by itself; the k nearest read independent
-    /// ones alone [default: spread].
+    /// How photons leave their lamps: spread evenly over directions and places, or each by itself; [default: spread; independent for
+    /// nearest and for saved maps, which know no other].
     #[arg(long, value_enum)]
     pub(crate) draws: Option<DrawsName>,
     /// Passes, each with photons and rays of its own.

@@ -55,7 +55,7 @@ fn a_meter_in_the_caustic_counts_its_photons() {
             let (read, truth) = (cell.value[0].mean().expect("a pass"), answer.value[0]);
             let known = read.clamp(truth - answer.uncertainty, truth + answer.uncertainty);
             family.reading(&case.name, cell, 0, known);
-            assert_eq!(cell.bias_bound(0, 0.99), 0.0, "{}: photons counted are not blurred", case.name);
+            assert_eq!(cell.lasting_bias_within(0, 3.0), 0.0, "{}: photons counted are not blurred", case.name);
         }
     }
     family.decide();

@@ -38,7 +38,7 @@ impl Default for Common {
 /// Where the irradiance is smooth the bias of a density estimate is `b r^2` and its variance `v / r^2`; the mean of `n` passes
 /// has the least mean squared error at `r^6 = v / (2 n b^2)` (Silverman 1986, chapter 4; Kaplanyan and Dachsbacher,
 /// "Adaptive progressive photon mapping", 2013, who estimate `b` by derivatives of a kernel instead of by a
-/// second ball). A pass's radius depends on the photons of earlier passes alone, so that no pass is read with a radius
+/// second ball). A pass's radius depends on the photons of pilots and earlier passes alone, so that no pass is read with a radius
 /// that its own photons' noise has chosen: choosing the ball that looks best favours bright ones.
 ///
 /// What all cells have shown of `b` over their light stands in for what a cell does not know yet (empirical Bayes estimation, the
@@ -46,7 +46,7 @@ impl Default for Common {
 /// is itself where it stands out of its noise, as it does at the few folds and peaks that all others say nothing about.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct CellRadius {
-    /// Metres; `None` before the first pass.
+    /// Metres; `None` before any photons were read, those of pilots included.
     radius: Option<f64>,
     /// Sums over passes of the weight of each, and of it times the pass's light, `b` and `v`.
     weight: f64,
@@ -58,7 +58,7 @@ pub(crate) struct CellRadius {
 }
 
 impl CellRadius {
-    /// The radius for the next pass, metres; `first` if no pass has been done.
+    /// The radius for the next pass, metres; `first` if none has been read, pilots included.
     pub(crate) fn get(&self, first: f64) -> f64 {
         self.radius.unwrap_or(first)
     }
@@ -98,7 +98,7 @@ impl CellRadius {
         let noise = self.noise_of_bend / (self.weight * self.weight);
         let of_all = OF_COMMON * common.bend_squared * light * light;
         let expected = of_all + (own * own - HEARD * noise).max(0.0);
-        let trust = if noise > 0.0 { expected / (expected + noise) } else { 1.0 };
+        let trust = if noise > 0.0 { 1.0 / (1.0 + noise / expected) } else { 1.0 };
         trust * trust * own * own + trust * noise
     }
 }

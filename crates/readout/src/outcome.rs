@@ -46,7 +46,8 @@ pub struct CellResult<const C: usize> {
     pub grain: [f64; C],
 }
 
-/// Of n passes whose counts agree, one photon more or less may be due in 1 - 0.0001^(1/n) < 9.21 / n of all (as in the rule of three).
+/// Of n passes whose counts agree, one photon more or less may be due in 1 - 0.0001^(1/n) < 9.21 / n of all (as in the rule of three). It is
+/// always added, for a spread that counts show in few passes is hardly known better; it falls faster than the noise.
 const GRAIN: f64 = 9.21;
 
 /// Glints, or photons, from which on their own spread says how many more there may be.
@@ -87,6 +88,11 @@ impl<const C: usize> CellResult<C> {
         }
         self.asked_photons |= mean.reads > 0.0;
         self.dark &= dark;
+    }
+
+    /// Takes in what one counted photon is worth in a pass.
+    pub(crate) fn add_grain(&mut self, one: Colour<C>) {
+        self.grain.iter_mut().zip(one.0).for_each(|(sum, value)| *sum += value.abs());
     }
 
     /// True if what light comes by way of specular surfaces is known by its own spread: enough photons or glints were found.

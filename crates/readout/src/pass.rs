@@ -84,6 +84,7 @@ impl<const C: usize> Session<'_, C> {
         }
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
         let found = read(&look, cells, &radii);
+        let counts_spread = self.settings.draws == Draws::Spread && matches!(source, Source::Trace);
         let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
         let probed = self.probes(cells, optics, number as u32, samples);
         for ((index, Sample { mut light, dark }), probed) in found.into_iter().enumerate().zip(probed) {
@@ -97,6 +98,10 @@ impl<const C: usize> Session<'_, C> {
                 mean.irradiance += irradiance;
                 mean.reads += 1.0;
                 light.photons += photons as f64;
+                if photons > 0 && counts_spread {
+                    let one = irradiance * (cells[index].area_read(self.world) / photons as f64);
+                    run.cells[index].add_grain(optics.palette.develop(one));
+                }
             }
             let mean = mean.weighted(Colour::splat(cells[index].area_read(self.world)));
             let mean = mean.developed(&optics.palette);
@@ -134,10 +139,7 @@ impl<const C: usize> Session<'_, C> {
             let photons = counted.photons[index] as f64;
             cell.push(&developed, photons, false);
             if settings.draws == Draws::Spread && photons > 0.0 {
-                cell.grain
-                    .iter_mut()
-                    .zip(developed.irradiance.0)
-                    .for_each(|(sum, value)| *sum += value.abs() / photons);
+                cell.add_grain(developed.irradiance * (1.0 / photons));
             }
         }
         run.book(plan.photons(), &counted.ledger.map(|flux| optics.palette.develop(flux)));

@@ -30,7 +30,10 @@ impl Seen {
         let mut seen = Self::default();
         for pair in sums {
             let means = pair.each_ref().map(|sum| sum.over(points));
-            seen.light.push(means.each_ref().map(|mean| mean.irradiance.0.iter().sum::<f64>() / C as f64));
+            // A lamp that a pixel sees is no light that balls read.
+            let is_read = pair[0].reads + pair[1].reads > 0.0;
+            let light = |mean: &Light<C>| mean.irradiance.0.iter().sum::<f64>() / C as f64;
+            seen.light.push(if is_read { means.each_ref().map(light) } else { [0.0; 2] });
             seen.poisson += 0.5 * (means[0].noise + means[1].noise);
             seen.photons += pair[0].photons + pair[1].photons;
             seen.reads += pair[0].reads + pair[1].reads;
@@ -82,13 +85,13 @@ pub(crate) struct Step {
     pub(crate) squared: f64,
     /// Variance of one pass's.
     pub(crate) noise: f64,
-    cells: f64,
+    pub(crate) cells: f64,
 }
 
 impl Step {
     /// True if it stands above its noise by a share of what can be told from chance: of few cells' squared noise the sum varies much.
     pub(crate) fn is_loud(&self, share: f64) -> bool {
-        self.squared >= share * (1.0 + 12.0 / self.cells.sqrt()) * self.noise
+        self.cells > 0.0 && self.squared >= share * (1.0 + 12.0 / self.cells.sqrt()) * self.noise
     }
 
     /// The power of the radius with which the bias has grown since the step before: 2 where light is smooth, less beside folds and

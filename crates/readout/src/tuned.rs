@@ -1,4 +1,4 @@
-//! The radius of a direct view, from a look at its first pass.
+//! The radius of a direct view, from a look at two passes' photons.
 
 use glam::DVec3;
 use photonlab_final_gather::Light;
@@ -75,6 +75,9 @@ impl<const C: usize> Session<'_, C> {
             wider = seen_by(2.0 * radius);
             fall = seen.fall_to(&wider);
             (before, step) = (step, seen.step_to(&wider));
+        }
+        if before.cells == 0.0 {
+            before = seen_by(0.5 * radius).step_to(&seen);
         }
         let variance = seen.variance();
         if variance <= 0.0 {
