@@ -1,7 +1,6 @@
 //! The radius of a cell, chosen from what earlier passes have found of its bias and its noise.
 
 use photonlab_final_gather::Light;
-use photonlab_photometry::Colour;
 
 /// A radius grows by at most this factor from one pass to the next: what reaches over an edge is to reach over by little.
 const LARGEST_GROWTH: f64 = 1.5;
@@ -76,10 +75,9 @@ impl CellRadius {
         let next = if mean.noise > 0.0 {
             // The variance of a pass's b is proportional to v / r^6.
             let weight = radius.powi(6);
-            let of_channels = |colour: Colour<C>| colour.0.iter().sum::<f64>() / C as f64;
             self.weight += weight;
-            self.light += weight * of_channels(mean.irradiance);
-            self.bend += weight * of_channels(mean.bias) / (radius * radius);
+            self.light += weight * mean.irradiance.mean();
+            self.bend += weight * mean.bias.mean() / (radius * radius);
             self.noise += weight * common.spread * mean.noise * radius * radius;
             self.noise_of_bend += (weight / (radius * radius)).powi(2) * common.spread * mean.noise_of_bias;
             let variance = self.noise / self.weight;
@@ -106,6 +104,7 @@ impl CellRadius {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use photonlab_photometry::Colour;
 
     fn found(bias: f64, noise: f64) -> Light<1> {
         Light { irradiance: Colour([1.0]), bias: Colour([bias]), noise, ..Light::default() }

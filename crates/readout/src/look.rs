@@ -237,7 +237,7 @@ impl<const C: usize> Look<'_, C> {
         let found = place.estimate(map, bandwidth, estimator, &tests, scratch);
         let astray = !found.remedied && self.world.ball_leaves_surface(at, CHECK * found.radius);
         let unresolved = found.photons > 0 && astray;
-        let brightness = found.irradiance.0.iter().sum::<f64>() / C as f64;
+        let brightness = found.irradiance.mean();
         let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
         let noise = brightness * brightness * counted;
         Light {

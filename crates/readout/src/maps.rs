@@ -4,7 +4,7 @@ use photonlab_final_gather::{GatherMaps, MapWithRadius, VolumeMaps};
 use photonlab_gather::{Kernel, PhotonMap, Scratch, VolumeMap};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon, VolumePhoton};
-use photonlab_sampling::{EmissionPlan, Optics, Sought};
+use photonlab_sampling::{Optics, Sought};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, Job, Ledger, VolumeRecords, trace};
 
@@ -54,8 +54,7 @@ pub fn trace_pass<const C: usize>(
     pass: u32,
     photons: u64,
 ) -> Result<PassPhotons<C>, ReadError> {
-    let plan = EmissionPlan::new(&optics.lamps, photons, sought)?;
-    let plan = settings.draws.of(plan, settings.seed, pass);
+    let plan = settings.plan(&optics.lamps, photons, sought, pass)?;
     let job = Job { seed: settings.seed, pass, limits: settings.limits, keep };
     let traced = trace(world, optics, &plan, &job)?;
     Ok(PassPhotons {

@@ -1,7 +1,7 @@
 //! What to do: the method and its settings.
 
 use photonlab_gather::Estimator;
-use photonlab_sampling::EmissionPlan;
+use photonlab_sampling::{EmissionPlan, Lamps, PlanError, Sought};
 use photonlab_trace::{Classes, Limits};
 
 /// How light at a diffuse point is found.
@@ -9,12 +9,12 @@ use photonlab_trace::{Classes, Limits};
 pub enum Method {
     /// From the map at the point: the k nearest photons.
     Nearest {
-        /// Photons, at least 2; `None` takes it from the photons of the first pass and lets it shrink from pass to pass.
+        /// Photons, at least 2; `None` takes it from the photons of two passes and lets it shrink from pass to pass.
         k: Option<usize>,
     },
     /// From the map at the point: all photons in a ball.
     Radius {
-        /// Metres; `None` takes it from the photons of the first pass and lets it shrink from pass to pass.
+        /// Metres; `None` takes it from the photons of two passes and lets it shrink from pass to pass.
         radius: Option<f64>,
     },
     /// From the map at the point: all photons in a ball whose radius each cell finds for itself, from the bias and noise of
@@ -40,7 +40,7 @@ impl Method {
         }
     }
 
-    /// True if the radius, or the number of photons, is chosen by a look at the first pass.
+    /// True if the radius, or the number of photons, is chosen by a look at the photons of two passes.
     pub fn is_tuned(&self) -> bool {
         matches!(self, Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive)
     }
@@ -98,26 +98,30 @@ pub struct Settings {
 }
 
 /// How the photons of one pass leave their lamps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Draws {
-    /// Evenly spread, by scrambled Sobol points: less noise wherever light arrives by few scatterings.
+    /// Evenly spread, by scrambled Sobol points (see [`EmissionPlan::spread`]): less noise wherever light arrives by few scatterings.
     Spread,
     /// Each by itself, as the laws of photon maps presume.
-    #[default]
     Independent,
 }
 
-impl Draws {
-    /// A pass's plan, drawn so.
-    pub(crate) fn of<const C: usize>(self, plan: EmissionPlan<C>, seed: u64, pass: u32) -> EmissionPlan<C> {
-        match self {
-            Draws::Spread => plan.spread(seed, pass),
-            Draws::Independent => plan,
-        }
-    }
-}
-
 impl Settings {
+    /// The photons of a pass that finds the light that is sought.
+    pub(crate) fn plan<const C: usize>(
+        &self,
+        lamps: &Lamps<C>,
+        photons: u64,
+        sought: Sought,
+        pass: u32,
+    ) -> Result<EmissionPlan<C>, PlanError> {
+        let plan = EmissionPlan::new(lamps, photons, sought)?;
+        Ok(match self.draws {
+            Draws::Spread => plan.spread(self.seed, pass),
+            Draws::Independent => plan,
+        })
+    }
+
     /// Classes of photon that the method reads.
     pub fn classes(&self) -> Classes {
         match (self.method, self.direct) {

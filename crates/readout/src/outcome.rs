@@ -42,7 +42,8 @@ pub struct CellResult<const C: usize> {
     /// The most that one such ray can add to a value, per channel: the brightest lamp all around. `None` where the method or the
     /// scene knows no such light, or a lamp has no extent, which no ray meets.
     pub brightest_glint: Option<Colour<C>>,
-    /// Sum over the passes of what one photon more or less would change a pass's value by, per channel; zero where that is not asked.
+    /// Sum over the passes of what one photon more or less would change a pass's value by, per channel, in the value's unit; zero where
+    /// photons are not counted.
     pub grain: [f64; C],
 }
 

@@ -3,7 +3,7 @@
 use photonlab_final_gather::Light;
 use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{EmissionPlan, Optics, Purpose, Sought, Stream};
+use photonlab_sampling::{Optics, Purpose, Sought, Stream};
 use photonlab_trace::{Job, count};
 use rayon::prelude::*;
 
@@ -126,8 +126,7 @@ impl<const C: usize> Session<'_, C> {
     fn count(&self, run: &mut Run<C>, cells: &[Cell], schedule: &Schedule) -> Result<(), ReadError> {
         let optics = &*self.optics.of_pass(self.world, self.settings.seed, run.passes as u32);
         let settings = &self.settings;
-        let plan = EmissionPlan::new(&optics.lamps, schedule.photons(run.passes), Sought::All)?;
-        let plan = settings.draws.of(plan, settings.seed, run.passes as u32);
+        let plan = settings.plan(&optics.lamps, schedule.photons(run.passes), Sought::All, run.passes as u32)?;
         let job =
             Job { seed: settings.seed, pass: run.passes as u32, limits: settings.limits, keep: settings.classes() };
         let bins = Bins::new(self.world, cells);

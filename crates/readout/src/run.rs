@@ -17,7 +17,7 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) radii: Radii,
     /// Each cell's own radius, for [`Method::Adaptive`].
     pub(crate) of_cells: Vec<CellRadius>,
-    /// What all cells have shown in the first pass, for it and other direct views that nobody has tuned.
+    /// What all cells have shown before the first pass is read, for it and other direct views that nobody has tuned.
     pub(crate) common: Common,
     /// Photons of a nearest-photon estimate in the first pass, if the run has chosen them.
     pub(crate) k: Option<f64>,

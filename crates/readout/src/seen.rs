@@ -32,8 +32,7 @@ impl Seen {
             let means = pair.each_ref().map(|sum| sum.over(points));
             // A lamp that a pixel sees is no light that balls read.
             let is_read = pair[0].reads + pair[1].reads > 0.0;
-            let light = |mean: &Light<C>| mean.irradiance.0.iter().sum::<f64>() / C as f64;
-            seen.light.push(if is_read { means.each_ref().map(light) } else { [0.0; 2] });
+            seen.light.push(if is_read { means.each_ref().map(|mean| mean.irradiance.mean()) } else { [0.0; 2] });
             seen.poisson += 0.5 * (means[0].noise + means[1].noise);
             seen.photons += pair[0].photons + pair[1].photons;
             seen.reads += pair[0].reads + pair[1].reads;

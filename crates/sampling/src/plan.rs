@@ -114,7 +114,7 @@ impl<const C: usize> EmissionPlan<C> {
     }
 
     /// The same with photons that are spread evenly over what each source emits, by points of a quasi-random set that is another for
-    /// each seed and pass. Means over passes are unbiased, and independent from pass to pass; photons of one pass are not.
+    /// each seed and pass (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995). Means over passes are unbiased, and independent from pass to pass; photons of one pass are not.
     pub fn spread(mut self, seed: u64, pass: u32) -> Self {
         let scramble = |source| {
             let mut stream = Stream::new(seed, Purpose::Scrambles, pass, source);
