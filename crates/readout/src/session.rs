@@ -220,9 +220,16 @@ impl<const C: usize> Session<'_, C> {
             return Ok(*schedule);
         };
         let (pilot, longer) = schedule.pilot(PILOT);
-        self.pass(&mut Run::new(cells.len()), cells, &pilot, source)?;
-        let pass = start.elapsed().as_secs_f64() * longer;
-        let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64()).max(1e-3);
+        let mut run = Run::new(cells.len());
+        let mut seconds_of_pass = || {
+            let begun = Instant::now();
+            self.pass(&mut run, cells, &pilot, source).map(|()| begun.elapsed().as_secs_f64() * longer)
+        };
+        // Only the first pass tunes, which takes time of its own.
+        let first = seconds_of_pass()?;
+        let alone = passes_at_hand(schedule, source) == Some(1);
+        let pass = if alone { first } else { seconds_of_pass()?.min(first) };
+        let left = (limit.as_secs_f64() - start.elapsed().as_secs_f64() - (first - pass)).max(1e-3);
         if schedule.ends.passes.is_some_and(|passes| pass * passes as f64 <= 0.5 * left) {
             return Ok(*schedule);
         }
