@@ -69,7 +69,8 @@ impl Options {
             method,
             direct,
             estimator: Estimator::new(kernel, area),
-            gather_rays: self.gather_rays.unwrap_or(1),
+            gather_rays: self.gather_rays.unwrap_or(usual_gather_rays(self.cache)),
+            cache: self.cache,
             draws: self.draws(method),
             seed: self.seed,
             limits: Limits {
@@ -123,7 +124,7 @@ impl Options {
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
-    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 10] {
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 11] {
         use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Progressive, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
@@ -131,6 +132,7 @@ impl Options {
             ("kernel", self.kernel.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive]),
             ("area", self.area.is_some(), &[Radius, Nearest, Adaptive, Progressive]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
+            ("cache", self.cache, &[FinalGather]),
             ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive, Progressive]),
             ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive, Bins]),
             ("draws", self.draws.is_some(), &[FinalGather, Radius, Adaptive, Progressive, Bins]),
@@ -140,18 +142,17 @@ impl Options {
     }
 
     fn refuse_what_is_not_built(&self) -> Result<(), Failure> {
-        let not_built = if self.cache {
-            Some("--cache")
-        } else if self.device == DeviceName::Gpu {
-            Some("--device gpu")
-        } else {
-            None
-        };
+        let not_built = if self.device == DeviceName::Gpu { Some("--device gpu") } else { None };
         match not_built {
             Some(what) => Err(Failure::usage(format!("{what} is not built yet; leave it out"))),
             None => Ok(()),
         }
     }
+}
+
+/// Final-gather rays per point, or per site of a cache and pass.
+pub(crate) fn usual_gather_rays(cache: bool) -> u32 {
+    if cache { 64 } else { 1 }
 }
 
 impl MethodName {

@@ -67,10 +67,10 @@ pub(crate) struct Options {
     /// disc with photons near the plane alone (flattened), or the surface that the point sees (visible; slow) [default: clipped].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
-    /// Final-gather rays per point [default: 1].
+    /// Final-gather rays per point [default: 1]; with --cache, per cached place and pass [default: 64].
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) gather_rays: Option<u32>,
-    /// Cache final gather's results.
+    /// Final gather looks around at few places and tells of all between (irradiance cache).
     #[arg(long)]
     pub(crate) cache: bool,
     /// How photons leave their lamps: spread evenly over directions and places, or each by itself; [default: spread; independent for

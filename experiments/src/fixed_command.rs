@@ -3,7 +3,10 @@
 use photonlab_gather::{AreaModel, Kernel};
 use photonlab_readout::{Direct, Method, Outcome, Settings, USUAL_PASSES};
 
-use crate::command::{Options, SceneArguments, UnitsName};
+use crate::{
+    chosen::usual_gather_rays,
+    command::{Options, SceneArguments, UnitsName},
+};
 
 /// The command with the method and all counts spelled out, so that no clock and no `auto` decides. `None` where a clock has ended a run before
 /// the passes for which its radius was tuned: one of so few passes would tune for fewer.
@@ -54,7 +57,7 @@ pub(crate) fn fixed_command<const C: usize>(
         };
         option("area", area.into());
     }
-    if settings.gather_rays > 1 {
+    if settings.gather_rays != usual_gather_rays(settings.cache) {
         option("gather-rays", settings.gather_rays.to_string());
     }
     if options.map.is_none() && settings.draws != settings.method.usual_draws() && settings.method != Method::Path {
@@ -89,6 +92,9 @@ pub(crate) fn fixed_command<const C: usize>(
     }
     if let Some([width, height]) = options.size {
         option("size", format!("{width}x{height}"));
+    }
+    if settings.cache {
+        words.push("--cache".into());
     }
     for (name, value) in &scene.define {
         words.extend(["-D".into(), quoted(&format!("{name}={value}"))]);

@@ -37,6 +37,7 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
         ("kernel", options.kernel.is_some()),
         ("area", options.area.is_some()),
         ("gather-rays", options.gather_rays.is_some()),
+        ("cache", options.cache),
         ("map", options.map.is_some()),
         ("size", options.size.is_some()),
         ("spp", options.spp.is_some()),

@@ -167,6 +167,7 @@ pub fn settings(method: Method, seed: u64) -> Settings {
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
+        cache: false,
         draws: method.usual_draws(),
         seed,
         limits: Limits::default(),

@@ -1,20 +1,15 @@
 //! All light at a diffuse point.
 
-use std::f64::consts::PI;
-
-use glam::DVec3;
 use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimator, Kernel, PhotonMap, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
-use photonlab_scene::{Hit, Ray, SurfacePoint, World};
+use photonlab_scene::{Hit, SurfacePoint, World};
 
 use crate::{
-    EyeLimits, InScattering, Light, Place, Start, VolumeMaps, collision::around_lamp_in_medium, segment,
-    segment::Emitted,
+    EyeLimits, Light, Place, VolumeMaps,
+    look::{Lamps, met_by_chance},
+    segment,
 };
-
-/// Bounces without a map after which roulette decides whether a walk goes on.
-const FREE_BOUNCES: u32 = 3;
 
 /// A map and the radius with which it is read.
 pub struct MapWithRadius<'m, M> {
@@ -79,93 +74,53 @@ impl<const C: usize> Gatherer<'_, C> {
         stream: &mut Stream,
         scratch: &mut Scratch,
     ) -> Light<C> {
-        let mut light = Light::default();
-        let (mut at, mut sight, mut used) = (*at, sight, used);
-        let mut weight = Colour::ONE;
-        for bounce in 0.. {
-            let share = if bounce == 0 { share } else { 0.0 };
-            light.add(&self.lamps_at(&at, &sight, used, share, stream).weighted(weight));
-            if bounce > 0 || self.caustics_at_start {
-                light.add(&self.caustics_at(&at, &sight, used, scratch).weighted(weight));
-            }
-            if !self.looks_around || !self.limits.allows(used + 1) {
-                break;
-            }
+        let mut light = self.known(at, &sight, (used, share), self.caustics_at_start, stream, scratch);
+        if self.looks_on(used) {
             let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
             stream.leave_prefix();
-            let (direction, share) = self.turned_to_lamp(&at, &sight, direction, stream);
-            let cosine = sight.normals.cosine(direction);
-            if cosine == 0.0 {
-                break;
-            }
-            weight = weight * (share * sight.weight(cosine));
-            let ray = Ray::new(at.position, direction);
-            let seeks_lamps = self.maps.is_none();
-            let start = Start {
-                ray,
-                from: Some(at.primitive),
-                reach: f64::INFINITY,
-                used,
-                seeks_lamps,
-                medium: sight.medium,
-                in_scattering: self.in_scattering(),
-            };
-            let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
-            // A lamp met by chance, shared with the draw of lamps by the balance heuristic (Veach and Guibas 1995).
-            if let Some(Emitted { radiance, shared_pdf: Some(drawn) }) = landing.first_emission {
-                let by_chance = warp::cosine_hemisphere_pdf_solid_angle(cosine);
-                let irradiance = radiance * (PI * by_chance / (by_chance + drawn));
-                light.add(&Light { irradiance, ..Light::default() }.weighted(weight));
-            }
-            light.add(&landing.scattered.weighted(weight * PI));
-            light.glints += f64::from(u8::from(!landing.emitted.is_zero()));
-            if self.maps.is_none() {
-                // Light that came through specular surfaces alone; with maps it is in the caustic map.
-                let contribution = Light { irradiance: landing.emitted * PI, ..Light::default() };
-                light.add(&contribution.weighted(weight));
-            }
-            let Some((hit, seen, carried)) = landing.matte else {
-                break;
-            };
-            weight = weight * seen.factor * carried;
-            used = landing.segments;
-            if weight.is_zero() {
-                break;
-            }
-            if let Some(gathered) = self.far_landing(&hit, &seen, landing.distance, used, scratch) {
-                light.add(&gathered.weighted(weight));
-                break;
-            }
-            if bounce >= FREE_BOUNCES {
-                let survival = weight.max().min(1.0);
-                if survival <= 0.0 || stream.next() >= survival {
-                    break;
-                }
-                weight = weight * (1.0 / survival);
-            }
-            (at, sight) = (hit.point, seen);
+            let turned = self.turned_to_lamp(at, &sight, direction, stream);
+            light.add(&self.look(at, sight, used, turned, Lamps::Counted, stream, scratch).light);
         }
         light
     }
 
-    /// Without maps, half of the rays from a point are drawn around a lamp without extent, if one that stands in a medium is
-    /// chosen (see [`AroundPoint`](photonlab_sampling::AroundPoint)): the direction, and its density by the cosine over that by
-    /// which it was drawn.
-    fn turned_to_lamp(&self, at: &SurfacePoint, sight: &Sight<C>, drawn: DVec3, stream: &mut Stream) -> (DVec3, f64) {
-        let lamps = &self.optics.lamps;
-        if self.maps.is_some() || self.world.scene.media.is_empty() || lamps.lamps.is_empty() {
-            return (drawn, 1.0);
+    /// One sample of what lamps send straight and of caustic light, where the rest is known: as [`Self::irradiance`], but for what is
+    /// reflected diffusely onto the point, and scattered there by media.
+    pub fn without_reflected(
+        &self,
+        at: &SurfacePoint,
+        sight: &Sight<C>,
+        (used, share): (u32, f64),
+        stream: &mut Stream,
+        scratch: &mut Scratch,
+    ) -> Light<C> {
+        let mut light = self.known(at, sight, (used, share), self.caustics_at_start, stream, scratch);
+        let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+        stream.leave_prefix();
+        let cosine = sight.normals.cosine(direction);
+        if cosine > 0.0 && self.limits.allows(used + 1) && !self.optics.lamps.are_sampled_alone(self.world) {
+            let start = self.start(at, sight, used, direction);
+            let landing = segment::follow(self.world, self.optics, &self.limits, start, stream);
+            light.irradiance += met_by_chance(&landing, cosine) * sight.weight(cosine);
         }
-        let lamp = lamps.choose(stream.next());
-        let Some(around) = around_lamp_in_medium(self.optics, lamp, at.position) else { return (drawn, 1.0) };
-        let direction = if stream.next() < 0.5 { around.draw(stream) } else { drawn };
-        let by_cosine = warp::cosine_hemisphere_pdf_solid_angle(sight.normals.cosine(direction));
-        (direction, by_cosine / (0.5 * by_cosine + 0.5 * around.pdf_solid_angle(direction)))
+        light
     }
 
-    /// How light that media scatter into a gather ray is found.
-    fn in_scattering(&self) -> InScattering<'_, C> {
-        self.maps.and_then(|maps| maps.volume).map_or(InScattering::ByPaths, InScattering::Gathered)
+    /// Light at a point that no ray around is needed for.
+    pub(crate) fn known(
+        &self,
+        at: &SurfacePoint,
+        sight: &Sight<C>,
+        (used, share): (u32, f64),
+        caustics: bool,
+        stream: &mut Stream,
+        scratch: &mut Scratch,
+    ) -> Light<C> {
+        let mut light = self.lamps_at(at, sight, used, share, stream);
+        if caustics {
+            light.add(&self.caustics_at(at, sight, used, scratch));
+        }
+        light
     }
 
     /// One sample of direct light, weighted against the rays that may meet the lamp by chance.
@@ -211,7 +166,7 @@ impl<const C: usize> Gatherer<'_, C> {
     /// What a ray gathers where it lands, unless that is too close to where it came from, to an edge or to another
     /// surface: `None` then, and the walk goes on by a further bounce instead. The ball that must stay on the surface is
     /// the one that checks the bias, twice the radius of the one averaged over.
-    fn far_landing(
+    pub(crate) fn far_landing(
         &self,
         hit: &Hit,
         sight: &Sight<C>,

@@ -7,6 +7,7 @@
 
 mod adaptive;
 mod bins;
+mod cached;
 mod caustic_cells;
 mod cells;
 mod checked_file;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Start, follow};
+use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Spot, Start, follow};
 use photonlab_gather::{Bandwidth, CHECK, Estimator, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
@@ -10,6 +10,7 @@ use photonlab_scene::{Ray, SurfacePoint, World};
 
 use crate::{
     Cell, Direct, Method, Settings, Target,
+    cached::Cache,
     caustic_cells::CausticCells,
     cells::{distant_ray, pixel_ray},
     lattice,
@@ -36,6 +37,8 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) shares: &'p [f64],
     /// Caustic light that is counted in cells.
     pub(crate) caustics: &'p CausticCells<C>,
+    /// What final gather has found at few places, if it caches.
+    pub(crate) cache: Option<Cache<'p, C>>,
 }
 
 /// What one sample of a cell, or the sum of several, found, in the cell's unit.
@@ -77,23 +80,46 @@ impl<const C: usize> Look<'_, C> {
         radius: f64,
         scratch: &mut Scratch,
     ) -> Sample<C> {
-        let rays = u64::from(self.settings.gather_rays);
-        let first = (number as u64 * self.samples + sample) * (rays + 1);
+        let first = self.first_stream(number, sample);
+        let ending = self.ending(cell, number, sample, shift);
+        let mut light = ending.light;
+        if let Some(End { spot, weight, share, caustics }) = ending.end {
+            let seed = Seed { first, sample, shift, share, radius, caustics };
+            light.add(&self.irradiance(&spot, seed, scratch).weighted(weight));
+        }
+        Sample { light, dark: ending.dark }
+    }
+
+    /// Where a sample reads the light at a surface; `None` if it does not.
+    pub(crate) fn spot(
+        &self,
+        cell: &Cell,
+        number: usize,
+        sample: u64,
+        shift: &[f64; lattice::DIMENSIONS],
+    ) -> Option<Spot<C>> {
+        self.ending(cell, number, sample, shift).end.map(|end| end.spot)
+    }
+
+    /// The first of the streams of a sample's own.
+    fn first_stream(&self, number: usize, sample: u64) -> u64 {
+        (number as u64 * self.samples + sample) * (u64::from(self.settings.rays_per_sample()) + 1)
+    }
+
+    /// Where a sample comes to.
+    fn ending(&self, cell: &Cell, number: usize, sample: u64, shift: &[f64; lattice::DIMENSIONS]) -> Ending<C> {
+        let rays = u64::from(self.settings.rays_per_sample());
         let [x, y, z, _, _, _, _, _, last, on_the_way @ ..] = lattice::point(sample * rays, shift);
-        let mut eye = self.stream(first).with_prefix(on_the_way);
+        let mut eye = self.stream(self.first_stream(number, sample)).with_prefix(on_the_way);
         let (start, reach) = match &cell.target {
-            Target::Leaving { .. } => return Sample { light: Light::default(), dark: false },
+            Target::Leaving { .. } => return Ending { end: None, light: Light::default(), dark: false },
             Target::Patch { shape, film, .. } => {
-                let point = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
-                let share = self.shares[number];
+                let at = self.world.point_in_cell(*shape, cell.cell, [film.width, film.height], [x, y, z]);
                 let surrounding = self.world.scene.sensors[cell.sensor].medium;
-                let medium = self.world.medium_beside(point.primitive, true, surrounding);
-                let caustics = self.caustics.of(number).is_none();
-                let seed = Seed { first, sample, shift, share, radius, caustics };
-                return Sample {
-                    light: self.irradiance(&point, Sight::meter(point.normal, medium), 0, seed, scratch),
-                    dark: false,
-                };
+                let sight = Sight::meter(at.normal, self.world.medium_beside(at.primitive, true, surrounding));
+                let (share, caustics) = (self.shares[number], self.caustics.of(number).is_none());
+                let end = End { spot: Spot { at, sight, used: 0 }, weight: Colour::ONE, share, caustics };
+                return Ending { end: Some(end), light: Light::default(), dark: false };
             }
             Target::Along(ray) => (*ray, f64::INFINITY),
             Target::Distant { direction, target } => {
@@ -106,19 +132,17 @@ impl<const C: usize> Look<'_, C> {
         let start = Start { ray: start, from: None, reach, used: 0, seeks_lamps: true, medium, in_scattering };
         let hides_lamps = self.world.scene.hides_lamps && matches!(cell.target, Target::Pixel { .. });
         let start = if hides_lamps { self.past_lamps(start) } else { Some(start) };
-        let Some(start) = start else { return Sample { light: Light::default(), dark: true } };
+        let Some(start) = start else { return Ending { end: None, light: Light::default(), dark: true } };
         let landing = follow(self.world, self.optics, &self.limits(), start, &mut eye);
         let mut light = landing.scattered;
         light.irradiance += landing.emitted + landing.first_emission.map_or(Colour::ZERO, |lamp| lamp.radiance);
-        let emitted = light.irradiance;
-        let matte = landing.matte.filter(|(_, sight, weight)| !(sight.factor * *weight).is_zero());
-        if let Some((hit, sight, weight)) = matte {
-            let seed = Seed { first, sample, shift, share: 0.0, radius, caustics: true };
-            let found = self.irradiance(&hit.point, sight, landing.segments, seed, scratch);
-            light.add(&found.weighted(sight.factor * weight * (1.0 / PI)));
-        }
-        let may_be_lit = landing.met_rough || matte.is_some_and(|_| self.limits().allows(landing.segments + 1));
-        Sample { light, dark: emitted.is_zero() && !may_be_lit }
+        let end = landing.matte.and_then(|(hit, sight, weight)| {
+            let weight = sight.factor * weight * (1.0 / PI);
+            let spot = Spot { at: hit.point, sight, used: landing.segments };
+            (!weight.is_zero()).then_some(End { spot, weight, share: 0.0, caustics: true })
+        });
+        let may_be_lit = landing.met_rough || end.is_some() && self.limits().allows(landing.segments + 1);
+        Ending { end, light, dark: light.irradiance.is_zero() && !may_be_lit }
     }
 
     /// How light that media scatter into a ray from an eye or a meter is found.
@@ -155,16 +179,23 @@ impl<const C: usize> Look<'_, C> {
         EyeLimits { max_segments: self.settings.limits.max_segments, max_specular: self.settings.limits.max_specular }
     }
 
+    /// Looks around; reads caustic light where it starts unless somebody else does.
+    pub(crate) fn gatherer(&self, caustics_at_start: bool) -> Gatherer<'_, C> {
+        Gatherer {
+            world: self.world,
+            optics: self.optics,
+            maps: matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps()),
+            limits: self.limits(),
+            looks_around: self.looks_around,
+            caustics_at_start,
+        }
+    }
+
     /// The mean over the gather rays of one point.
-    fn irradiance(
-        &self,
-        at: &SurfacePoint,
-        sight: Sight<C>,
-        used: u32,
-        seed: Seed<'_>,
-        scratch: &mut Scratch,
-    ) -> Light<C> {
-        let rays = self.settings.gather_rays;
+    fn irradiance(&self, spot: &Spot<C>, seed: Seed<'_>, scratch: &mut Scratch) -> Light<C> {
+        let Spot { at, sight, used } = spot;
+        let (sight, used) = (*sight, *used);
+        let rays = self.settings.rays_per_sample();
         let mut light = Light::default();
         for ray in 0..rays {
             let [_, _, _, a, b, c, d, e, ..] =
@@ -172,17 +203,11 @@ impl<const C: usize> Look<'_, C> {
             let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix([a, b, c, d, e]);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {
-                    let maps =
-                        matches!(self.settings.method, Method::FinalGather { .. }).then(|| self.maps.gather_maps());
-                    let gatherer = Gatherer {
-                        world: self.world,
-                        optics: self.optics,
-                        maps,
-                        limits: self.limits(),
-                        looks_around: self.looks_around,
-                        caustics_at_start: seed.caustics,
-                    };
-                    gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch)
+                    let gatherer = self.gatherer(seed.caustics);
+                    match self.cache.filter(|_| spot.is_plain()) {
+                        Some(cache) => cache.irradiance(&gatherer, spot, seed.share, &mut stream, scratch),
+                        None => gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch),
+                    }
                 }
                 Method::Bins => Light::default(),
                 Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
@@ -253,6 +278,24 @@ impl<const C: usize> Look<'_, C> {
             astray: f64::from(u8::from(astray)),
         }
     }
+}
+
+/// Where a sample comes to.
+struct Ending<const C: usize> {
+    /// Where it reads the light at a surface, if it does.
+    end: Option<End<C>>,
+    /// What it met on its way.
+    light: Light<C>,
+    /// See [`Sample::dark`].
+    dark: bool,
+}
+
+/// A surface point whose irradiance counts with a weight.
+struct End<const C: usize> {
+    spot: Spot<C>,
+    weight: Colour<C>,
+    share: f64,
+    caustics: bool,
 }
 
 #[derive(Clone, Copy)]

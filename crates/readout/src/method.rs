@@ -87,8 +87,10 @@ pub struct Settings {
     /// How gathered photons are weighed and what their flux is divided by (map methods alone; final gather uses its kernel
     /// and divides by the disc).
     pub estimator: Estimator,
-    /// Rays per gather point.
+    /// Rays per gather point; of a cache, per site and pass.
     pub gather_rays: u32,
+    /// Final gather looks around at few places alone and tells of all between: the paper's irradiance map.
+    pub cache: bool,
     /// How photons are drawn.
     pub draws: Draws,
     /// The run's seed.
@@ -120,6 +122,11 @@ impl Settings {
             Draws::Spread => plan.spread(self.seed, pass),
             Draws::Independent => plan,
         })
+    }
+
+    /// Final-gather rays of each sample.
+    pub(crate) fn rays_per_sample(&self) -> u32 {
+        if self.cache { 1 } else { self.gather_rays }
     }
 
     /// Classes of photon that the method reads.

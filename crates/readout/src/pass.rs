@@ -1,6 +1,6 @@
 //! One pass of a session.
 
-use photonlab_final_gather::Light;
+use photonlab_final_gather::{Light, Sites};
 use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sought, Stream};
@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::{
     Cell, Direct, Draws, ErrorOver, Method, ReadError, Schedule, Session, Source,
     bins::Bins,
+    cached::Cache,
     look::{Look, Sample},
     maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
     pilot::Pilots,
@@ -62,6 +63,7 @@ impl<const C: usize> Session<'_, C> {
             told_of: self.told_of(),
             shares: &shares,
             caustics: &maps.in_cells,
+            cache: None,
         };
         let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
         let tunes = number == 0 && maps.surface.is_some() && self.settings.method.is_tuned();
@@ -83,6 +85,13 @@ impl<const C: usize> Session<'_, C> {
             self.learn_from_pilots(run, &look, cells, (passes, surface_radius), pilots);
         }
         let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
+        let caches = self.caches();
+        let sites: &Sites<C> =
+            run.sites.get_or_insert_with(|| if caches { self.sites(&look, cells) } else { Sites::default() });
+        let records = self.records(&look, sites);
+        if caches {
+            look.cache = Some(Cache { sites, records: &records });
+        }
         let found = read(&look, cells, &radii);
         let counts_spread = self.settings.draws == Draws::Spread && matches!(source, Source::Trace);
         let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
@@ -107,8 +116,10 @@ impl<const C: usize> Session<'_, C> {
             let mean = mean.developed(&optics.palette);
             let cell = &mut run.cells[index];
             cell.push(&mean, light.photons, dark);
-            cell.glints += light.glints;
-            cell.rays += (samples * u64::from(self.settings.gather_rays)) as f64;
+            // Samples that a cache answers share its rays.
+            let of_own = if caches { (f64::from(self.settings.gather_rays) / samples as f64).min(1.0) } else { 1.0 };
+            cell.glints += of_own * light.glints;
+            cell.rays += of_own * (samples * u64::from(self.settings.rays_per_sample())) as f64;
             cell.brightest_glint =
                 brightest_glint.and_then(|radiance| Some(radiance * cells[index].all_around(self.world)?));
         }

@@ -1,9 +1,10 @@
 //! Direct light of point lamps on a meter's cells, sampled from the lamps' side.
 //!
 //! A point of a cell drawn by area sees a near point lamp as intensity over distance squared, which has next to no bound. A
-//! ray drawn from the lamp carries bounded flux, but rarely meets a small or distant cell. The balance heuristic (Veach and
-//! Guibas 1995) lets each do what it does well: with n1 rays from the lamps and n2 points on a cell of area A, a lamp at
-//! distance d and cosine c is left to the points with weight 1 / (1 + (n1 / n2) A c / (4 pi d^2)).
+//! ray drawn from the lamp carries bounded flux, but rarely meets a small or distant cell. Each does what it does well: on a cell of
+//! area A a lamp at distance d and cosine c is left to the points with weight 1 / (1 + A c / (4 pi d^2)). That is the balance
+//! heuristic (Veach and Guibas 1995) of as many rays as points. The many rays that other cells of a map need do not count in it:
+//! points that see a lamp far away over their cell's size hardly differ, which the heuristic does not know.
 
 use std::f64::consts::PI;
 
@@ -20,7 +21,7 @@ const TRIFLE: f64 = 0.02;
 /// Rays that one task follows.
 const BLOCK: u64 = 1024;
 
-/// What the weight of a point on each of the cells needs: (n1 / n2) A / (4 pi), zero where no rays are sent. Cells of one sensor
+/// What the weight of a point on each of the cells needs: A / (4 pi), zero where no rays are sent. Cells of one sensor
 /// stand together and share one look at the whole film, so the work grows with the cells and not with their square.
 pub(crate) fn shares<const C: usize>(world: &World, lamps: &Lamps<C>, cells: &[Cell]) -> Vec<f64> {
     let of_sensor = |cells: &[Cell]| -> Vec<f64> {
@@ -35,7 +36,7 @@ pub(crate) fn shares<const C: usize>(world: &World, lamps: &Lamps<C>, cells: &[C
 }
 
 fn share_of(world: &World, shape: usize, cell: [u32; 2], size: [u32; 2]) -> f64 {
-    rays_per_point(size) * world.cell_area(shape, cell, size) / (4.0 * PI)
+    world.cell_area(shape, cell, size) / (4.0 * PI)
 }
 
 /// True if a point lamp is so near that rays from it could carry more than a trifle of what a cell of the shape gets by its
@@ -57,11 +58,6 @@ fn is_near_a_lamp<const C: usize>(world: &World, lamps: &Lamps<C>, shape: usize,
     })
 }
 
-/// As many rays are sent for each cell of a sensor as it has points, and any cell may catch them.
-fn rays_per_point(size: [u32; 2]) -> f64 {
-    f64::from(size[0]) * f64::from(size[1])
-}
-
 /// What rays from point lamps bring each cell of one sensor: irradiance, weighted against the cells' own points.
 /// `points` is the number of points per cell.
 pub(crate) fn probe<const C: usize>(
@@ -78,6 +74,7 @@ pub(crate) fn probe<const C: usize>(
     if !is_near_a_lamp(world, &optics.lamps, *shape, size) {
         return found;
     }
+    // As many rays are sent for each cell of a sensor as it has points, and any cell may catch them.
     let rays = points * cells.len() as u64;
     let arrivals: Vec<Vec<(usize, Colour<C>)>> = (0..rays.div_ceil(BLOCK))
         .into_par_iter()
@@ -114,7 +111,7 @@ fn arrival<const C: usize>(
     let area = world.cell_area(shape, [column, row], size);
     let cosine = -emission.ray.direction.dot(hit.point.normal);
     let towards = lamp.point_emission(emission.ray.direction);
-    let odds = rays_per_point(size) * area * cosine * towards / (4.0 * PI * distance * distance);
+    let odds = area * cosine * towards / (4.0 * PI * distance * distance);
     let weight = odds / (1.0 + odds);
     let irradiance = lamp.flux * arrives * (weight / (lamps.probability[chosen] * area));
     Some(((row * size[0] + column) as usize, irradiance))

@@ -1,5 +1,6 @@
 //! What a run has found so far.
 
+use photonlab_final_gather::Sites;
 use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
 use photonlab_trace::Ledger;
@@ -15,6 +16,8 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) cells: Vec<CellResult<C>>,
     pub(crate) ledger: Option<Ledger<C>>,
     pub(crate) radii: Radii,
+    /// Where an irradiance cache looks around, chosen before the first pass.
+    pub(crate) sites: Option<Sites<C>>,
     /// Each cell's own radius, for [`Method::Adaptive`].
     pub(crate) of_cells: Vec<CellRadius>,
     /// What all cells have shown before the first pass is read, for it and other direct views that nobody has tuned.
@@ -36,6 +39,7 @@ impl<const C: usize> Run<C> {
             cells: vec![CellResult::default(); cells],
             ledger: None,
             radii: Radii::default(),
+            sites: None,
             of_cells: vec![CellRadius::default(); cells],
             common: Common::default(),
             k: None,

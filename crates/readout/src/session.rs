@@ -89,7 +89,7 @@ impl<const C: usize> Session<'_, C> {
     pub fn demands(&self) -> Demands {
         let from_map = self.settings.method.is_direct_view();
         Demands {
-            gather_rays: self.settings.gather_rays,
+            gather_rays: self.settings.rays_per_sample(),
             fewest_photons: if self.uses_maps() || self.settings.method == Method::Bins {
                 self.optics.any().lamps.lamps.len().max(1) as u64
             } else {

@@ -20,6 +20,8 @@ pub enum Purpose {
     Aims = 7,
     /// How a pass's quasi-random photons are scrambled; the index is the source's.
     Scrambles = 8,
+    /// Rays of an irradiance cache; the index is the site's.
+    Cache = 9,
     /// Anything else: synthetic photons of experiments and tests.
     Synthetic = 3,
 }

@@ -204,6 +204,7 @@ fn attempt<const C: usize>(
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
+        cache: false,
         draws: way.method().usual_draws(),
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

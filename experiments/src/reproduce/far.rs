@@ -86,6 +86,7 @@ pub(super) fn measure(first: u64, seeds: u64, photons: u64, points: u64, confide
                 direct: Direct::Photons,
                 estimator: DEFAULT_ESTIMATOR,
                 gather_rays: 1,
+                cache: false,
                 draws: of.usual_draws(),
                 seed,
                 limits: Limits::default(),

@@ -64,6 +64,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<Furnac
                 direct: Direct::Photons,
                 estimator: Estimator::default(),
                 gather_rays: 1,
+                cache: false,
                 draws: method.usual_draws(),
                 seed: p.seed,
                 limits: Limits::default(),

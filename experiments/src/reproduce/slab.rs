@@ -79,6 +79,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<SlabRe
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
+        cache: false,
         draws: Draws::Independent,
         seed: p.seed,
         limits: Limits::default(),

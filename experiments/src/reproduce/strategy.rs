@@ -73,6 +73,7 @@ impl Strategy {
             direct: self.direct,
             estimator: Estimator::default(),
             gather_rays: 1,
+            cache: false,
             draws: Draws::Independent,
             seed,
             limits: Limits::default(),

@@ -62,6 +62,7 @@ pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<Shee
         direct: Direct::Photons,
         estimator: Estimator::default(),
         gather_rays: 1,
+        cache: false,
         draws: Draws::Independent,
         seed: p.seed,
         limits: Limits::default(),

@@ -137,6 +137,7 @@ fn read<const C: usize>(
         direct: Direct::Sampled,
         estimator: DEFAULT_ESTIMATOR,
         gather_rays: 1,
+        cache: false,
         draws: method.usual_draws(),
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

@@ -180,6 +180,7 @@ fn read(
             direct: reader.direct,
             estimator: Estimator::default(),
             gather_rays: 1,
+            cache: false,
             draws: Draws::Independent,
             seed,
             limits: Limits::default(),

@@ -1,0 +1,132 @@
+//! Where an irradiance cache looks around, and what it finds there.
+
+use glam::DVec3;
+use photonlab_gather::Scratch;
+use photonlab_sampling::{Sight, Stream};
+use photonlab_scene::SurfacePoint;
+
+use crate::{
+    Gatherer, Light,
+    hemisphere::{Found, Frame, Gradients, Strata},
+};
+
+/// Of a place's neighbours only those stand on its surface, as far as a cache is concerned, that lie so near the plane between both
+/// normals, over their distance: no step, no parallel shelf. On planes and spheres it is zero.
+const OFF_PLANE: f64 = 0.02;
+
+/// A place whose reflected light stands for that around it.
+#[derive(Clone, Copy, Debug)]
+pub struct Spot<const C: usize> {
+    /// The point.
+    pub at: SurfacePoint,
+    /// The side from which it is seen.
+    pub sight: Sight<C>,
+    /// Segments between it and the sensor.
+    pub used: u32,
+}
+
+/// A spot and how far it may stand for others.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<const C: usize> {
+    /// Where it is.
+    pub spot: Spot<C>,
+    /// The light around changes over about this length: the harmonic mean distance of what is seen from there (Ward et al. 1988), made
+    /// longer where sites would stand closer than spots are read, and shorter where a neighbour's is. Metres.
+    pub reach: f64,
+    /// The share of the gradients that is believed: less than 1 where the reach was made longer.
+    pub(crate) trust: f64,
+}
+
+/// What the rays of one pass found at a site.
+#[derive(Clone, Copy, Debug)]
+pub struct Record<const C: usize> {
+    pub(crate) light: Light<C>,
+    gradients: Gradients<C>,
+}
+
+impl<const C: usize> Spot<C> {
+    /// True if its light can stand for that of others: light that arrives under all angles counts alike.
+    pub fn is_plain(&self) -> bool {
+        self.sight.is_plain()
+    }
+
+    fn normal(&self) -> DVec3 {
+        self.sight.normals.geometric
+    }
+}
+
+impl<const C: usize> Site<C> {
+    /// Looks how far things are that are seen from a spot.
+    ///
+    /// No reach is shorter than `least`, nor longer than `most`, metres.
+    pub fn new(
+        spot: Spot<C>,
+        gatherer: &Gatherer<'_, C>,
+        rays: u32,
+        [least, most]: [f64; 2],
+        stream: &mut Stream,
+    ) -> Self {
+        let (strata, frame) = (Strata::new(rays), Frame::new(spot.normal()));
+        let nearness: f64 = (0..rays)
+            .map(|number| {
+                let direction = strata.direction(number, stream.next2(), &frame);
+                1.0 / gatherer.first_distance(&spot.at, &spot.sight, spot.used, direction, stream)
+            })
+            .sum();
+        let seen = f64::from(rays) / nearness;
+        let reach = seen.min(most).max(least);
+        Self { spot, reach, trust: (seen / reach).min(1.0) }
+    }
+
+    /// No longer than a length.
+    pub(crate) fn shorten(&mut self, to: f64) {
+        self.reach = self.reach.min(to);
+    }
+
+    /// How much the light here can differ from that of a spot, by Ward's split sphere: the distance over the reach plus the root of what the
+    /// cosine between both normals lacks. `None` if the spot lies on another surface or side, or in another medium.
+    pub fn difference(&self, spot: &Spot<C>, bound: f64) -> Option<f64> {
+        let offset = spot.at.position - self.spot.at.position;
+        let (distance, mean) = (offset.length(), self.spot.normal() + spot.normal());
+        let by_distance = distance / self.reach;
+        let difference = by_distance + (1.0 - self.spot.normal().dot(spot.normal())).max(0.0).sqrt();
+        let near = difference < bound && offset.dot(mean).abs() <= OFF_PLANE * distance * mean.length();
+        let alike = self.spot.used == spot.used && self.spot.sight.medium == spot.sight.medium;
+        (near && alike).then_some(difference)
+    }
+
+    /// Looks around with as many rays.
+    pub fn measure(
+        &self,
+        gatherer: &Gatherer<'_, C>,
+        rays: u32,
+        stream: &mut Stream,
+        scratch: &mut Scratch,
+    ) -> Record<C> {
+        let (strata, frame) = (Strata::new(rays), Frame::new(self.spot.normal()));
+        let Spot { at, sight, used } = &self.spot;
+        let mut light = Light::default();
+        let found: Vec<_> = (0..rays)
+            .map(|number| {
+                let direction = strata.direction(number, stream.next2(), &frame);
+                let seen = gatherer.reflected(at, *sight, *used, direction, stream, scratch);
+                light.add(&seen.light);
+                Found { irradiance: seen.light.irradiance, distance: seen.distance }
+            })
+            .collect();
+        Record { light: light.over(f64::from(rays)), gradients: strata.gradients(&found, &frame) }
+    }
+}
+
+impl<const C: usize> Record<C> {
+    /// The light that the record's site tells of a spot.
+    pub(crate) fn told(&self, site: &Site<C>, spot: &Spot<C>) -> Light<C> {
+        let (step, turn) = (spot.at.position - site.spot.at.position, site.spot.normal().cross(spot.normal()));
+        let mut light = self.light;
+        for axis in 0..3 {
+            light.irradiance +=
+                (self.gradients.shift[axis] * step[axis] + self.gradients.turn[axis] * turn[axis]) * site.trust;
+        }
+        light
+    }
+}
