@@ -107,6 +107,9 @@ pub const SUITE: &[(&str, usize)] = &[
     ("reflector", 4),
     ("tilted squares", 10),
     ("smooth ball", 3),
+    ("cached cube", 8),
+    ("cached furnace", 4),
+    ("cached room", 8),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

@@ -126,7 +126,7 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         ("--radius nan", "above 0"),
         ("--target-error 0%", "above 0"),
         ("--confidence 1", "below 1"),
-        ("--cache", "not built yet"),
+        ("--method path --cache", "--cache is not used by the method path"),
         ("--method path --kernel cone", "--kernel is not used by the method path"),
         ("--kernel triweight", "[possible values: disc, cone, epanechnikov, biweight, gaussian]"),
         ("--method final-gather --area clipped", "--area is not used by the method final-gather"),
@@ -135,6 +135,12 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         fails(&program, &format!("measure {cube} {options}"), 2, &[word]);
     }
     fails(&program, &format!("map build {cube} -o photons.map --k 5"), 2, &["--k is not used when a map is built"]);
+    fails(
+        &program,
+        &format!("map build {cube} -o photons.map --cache"),
+        2,
+        &["--cache is not used when a map is built"],
+    );
     let cornell = scene("cornell-box.xml");
     fails(&program, &format!("render {cornell} -o image.exr --false-colour"), 2, &["ends in .png"]);
     fails(&program, &format!("render {cornell} -o image.exr --size 0x5"), 2, &["1 to 65536"]);

@@ -5,7 +5,7 @@ use crate::{Light, Record, Site, Spot, zones::Zones};
 /// The greatest [difference](Site::difference) at which a site stands for a spot.
 pub const ACCURACY: f64 = 0.2;
 
-/// The bias is told by sites up to so many times as different.
+/// The bias is told by sites up to so many times as different: by three times as much where light is smooth.
 const CHECK: f64 = 2.0;
 
 /// Places of records, before anything is measured there.
@@ -68,5 +68,70 @@ impl<const C: usize> Sites<C> {
         let (mut light, far) = (near?, far?);
         light.bias += far.irradiance - light.irradiance;
         Some(light)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+    use photonlab_photometry::Colour;
+    use photonlab_sampling::Sight;
+    use photonlab_scene::SurfacePoint;
+
+    use super::*;
+    use crate::hemisphere::Gradients;
+
+    fn spot(x: f64, y: f64) -> Spot<1> {
+        let (position, normal) = (DVec3::new(x, y, 0.0), DVec3::Z);
+        let at = SurfacePoint { position, normal, shading: normal, primitive: 0 };
+        Spot { at, sight: Sight::meter(normal, None), used: 1 }
+    }
+
+    /// Sites 10 cm apart that tell the light `f` and its slope.
+    fn cache(f: impl Fn(f64, f64) -> (f64, [f64; 2])) -> (Sites<1>, Vec<Record<1>>) {
+        let places: Vec<(f64, f64)> =
+            (-20..=20).flat_map(|i| (-20..=20).map(move |j| (0.1 * f64::from(i), 0.1 * f64::from(j)))).collect();
+        let mut sites = Sites::default();
+        sites.add(places.iter().map(|&(x, y)| Site { spot: spot(x, y), reach: 1.0, trust: 1.0 }));
+        let record = |&(x, y): &(f64, f64)| {
+            let (value, slope) = f(x, y);
+            let shift = [Colour([slope[0]]), Colour([slope[1]]), Colour::ZERO];
+            let light = Light { irradiance: Colour([value]), ..Light::default() };
+            Record { light, gradients: Gradients { turn: [Colour::ZERO; 3], shift } }
+        };
+        (sites, places.iter().map(record).collect())
+    }
+
+    #[test]
+    fn a_slope_is_told_exactly_and_a_bend_with_three_times_its_bias() {
+        let (sites, records) = cache(|x, y| (3.0 + x - 2.0 * y, [1.0, -2.0]));
+        let told = sites.tell(&spot(0.234, -0.155), &records).expect("covered");
+        assert!((told.irradiance.0[0] - 3.544).abs() < 1e-12 && told.bias.0[0].abs() < 1e-12, "{told:?}");
+        let (sites, records) = cache(|x, y| (x * x + y * y, [2.0 * x, 2.0 * y]));
+        let (mut bias, mut stated) = (0.0, 0.0);
+        for step in 0..100 {
+            let (x, y) = (0.01 * f64::from(step) - 0.5, 0.3 - 0.007 * f64::from(step));
+            let told = sites.tell(&spot(x, y), &records).expect("covered");
+            bias += told.irradiance.0[0] - (x * x + y * y);
+            stated += told.bias.0[0];
+        }
+        assert!(bias < 0.0 && (stated / bias - 3.0).abs() < 0.3, "{stated} {bias}");
+    }
+
+    #[test]
+    fn nothing_is_told_where_no_site_is() {
+        let (sites, records) = cache(|_, _| (1.0, [0.0; 2]));
+        assert!(sites.cover(&spot(1.9, 1.9)) && !sites.cover(&spot(2.5, 0.0)));
+        assert!(sites.tell(&spot(2.5, 0.0), &records).is_none());
+        assert!(Sites::<1>::default().tell(&spot(0.0, 0.0), &[]).is_none());
+    }
+
+    #[test]
+    fn a_short_reach_shortens_its_neighbours() {
+        let mut sites = Sites::default();
+        let site = |x: f64, reach: f64| Site { spot: spot(x, 0.0), reach, trust: 1.0 };
+        sites.add([site(0.0, 1.0), site(0.2, 0.1), site(5.0, 1.0)]);
+        let reaches: Vec<f64> = sites.all().iter().map(|site| site.reach).collect();
+        assert!((reaches[0] - 0.3).abs() < 1e-12 && reaches[1..] == [0.1, 1.0], "{reaches:?}");
     }
 }

@@ -41,7 +41,7 @@ pub struct Site<const C: usize> {
 #[derive(Clone, Copy, Debug)]
 pub struct Record<const C: usize> {
     pub(crate) light: Light<C>,
-    gradients: Gradients<C>,
+    pub(crate) gradients: Gradients<C>,
 }
 
 impl<const C: usize> Spot<C> {
@@ -128,5 +128,36 @@ impl<const C: usize> Record<C> {
                 (self.gradients.shift[axis] * step[axis] + self.gradients.turn[axis] * turn[axis]) * site.trust;
         }
         light
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spot(position: DVec3, normal: DVec3, medium: Option<u32>) -> Spot<1> {
+        let at = SurfacePoint { position, normal, shading: normal, primitive: 0 };
+        Spot { at, sight: Sight::meter(normal, medium), used: 1 }
+    }
+
+    #[test]
+    fn a_site_stands_for_its_own_surface_alone() {
+        let site = Site { spot: spot(DVec3::ZERO, DVec3::Z, None), reach: 2.0, trust: 1.0 };
+        let difference = |position: [f64; 3], normal: DVec3, medium| {
+            site.difference(&spot(DVec3::from(position), normal.normalize(), medium), 0.2)
+        };
+        assert_eq!(difference([0.3, 0.0, 0.0], DVec3::Z, None), Some(0.15));
+        assert_eq!(difference([0.5, 0.0, 0.0], DVec3::Z, None), None, "too far");
+        assert_eq!(difference([0.1, 0.0, 0.0], -DVec3::Z, None), None, "the other side");
+        assert_eq!(difference([0.1, 0.0, 0.02], DVec3::Z, None), None, "a step up");
+        assert_eq!(difference([0.0, 0.0, -0.001], DVec3::Z, None), None, "a shelf below");
+        assert_eq!(difference([0.1, 0.0, 0.0], DVec3::Z, Some(0)), None, "another medium");
+        // On a ball of radius 10 m through the site the chord is at right angles to the mean of both normals.
+        let turn: f64 = 0.02;
+        let on_ball = [10.0 * turn.sin(), 0.0, 10.0 * (turn.cos() - 1.0)];
+        let along = DVec3::new(turn.sin(), 0.0, turn.cos());
+        assert!(difference(on_ball, along, None).is_some());
+        let deeper = Spot { used: 2, ..spot(DVec3::ZERO, DVec3::Z, None) };
+        assert_eq!(site.difference(&deeper, 0.2), None, "of a path of another length");
     }
 }

@@ -9,6 +9,7 @@ mod caustic_profile;
 mod checker_detail;
 mod claims;
 mod context;
+mod cornell_picture;
 mod covered;
 mod cpu_clock;
 mod cube_field;

@@ -23,6 +23,8 @@ pub(super) struct Bench<const C: usize> {
     pub(super) cells: Vec<Cell>,
     /// What each cell reads without error, and what its error is taken relative to; `None` leaves a cell out.
     pub(super) truth: Vec<Option<([f64; C], f64)>>,
+    /// Cells whose mean error is told apart; may be none.
+    pub(super) border: Vec<usize>,
 }
 
 /// Error and time of one setting over its seeds.
@@ -31,6 +33,8 @@ pub(super) struct Measured {
     pub(super) rays: f64,
     /// Mean over the seeds of the mean square relative error of the cells.
     square: Replicates,
+    /// Mean relative error of the border's cells, sign included.
+    pub(super) border: Replicates,
     seconds: Replicates,
     /// True if any cell of any seed read a map.
     pub(super) reads_map: bool,
@@ -102,8 +106,9 @@ impl<const C: usize> Bench<C> {
         found: &mut Findings,
     ) -> anyhow::Result<Vec<Measured>> {
         let mut one = |points: u64| -> anyhow::Result<Measured> {
-            let (square, seconds) = (Replicates::new(), Replicates::new());
-            let mut measured = Measured { rays: points as f64, square, seconds, reads_map: false };
+            let none = Replicates::new;
+            let mut measured =
+                Measured { rays: points as f64, square: none(), border: none(), seconds: none(), reads_map: false };
             for seed in seeds.clone() {
                 let clock = CpuClock::start();
                 let wanted = Wanted { photons, samples: Some(points), ..Wanted::default() };
@@ -111,6 +116,7 @@ impl<const C: usize> Bench<C> {
                 let spent = clock.seconds();
                 let square = self.mean_square_error(&outcome);
                 measured.square.push(square);
+                measured.border.push(self.border_error(&outcome));
                 measured.seconds.push(spent);
                 measured.reads_map |= outcome.cells.iter().any(|cell| cell.asked_photons);
                 found.rows.push(row(self.id, &strategy, photons, points, seed, square.sqrt(), spent));
@@ -118,6 +124,16 @@ impl<const C: usize> Bench<C> {
             Ok(measured)
         };
         points.iter().map(|&points| one(points)).collect()
+    }
+
+    fn border_error(&self, outcome: &photonlab_readout::Outcome<C>) -> f64 {
+        let of_cell = |&number: &usize| {
+            let (truth, _) = self.truth[number]?;
+            let read: f64 = outcome.cells[number].value.iter().map(|value| value.mean().unwrap_or(0.0)).sum();
+            Some(read / truth.iter().sum::<f64>() - 1.0)
+        };
+        let errors: Vec<f64> = self.border.iter().filter_map(of_cell).collect();
+        errors.iter().sum::<f64>() / errors.len().max(1) as f64
     }
 
     fn mean_square_error(&self, outcome: &photonlab_readout::Outcome<C>) -> f64 {
@@ -167,6 +183,16 @@ pub(super) fn time_ratio(curves: &[Curve]) -> Option<Interval> {
 pub(super) fn error_ratio(paths: &Curve, setting: &Measured) -> Option<Interval> {
     let law = law(paths, Measured::seconds).ok()?;
     Some(setting.rms()?.scaled(1.0 / law.predict(setting.seconds(), 0.5).value))
+}
+
+/// RMS error of a setting over that of a curve after as many CPU seconds, between whose points it is taken on the straight line of both
+/// logarithms; the interval is that of the setting's error. `None` where the curve does not reach to that time.
+pub(super) fn error_over(curve: &Curve, setting: &Measured) -> Option<Interval> {
+    let now = setting.seconds();
+    let pair = curve.points.windows(2).find(|pair| pair[0].seconds() <= now && now <= pair[1].seconds())?;
+    let [(t0, e0), (t1, e1)] = [&pair[0], &pair[1]].map(|m| (m.seconds(), m.square.mean().unwrap_or(0.0).sqrt()));
+    let share = (now / t0).ln() / (t1 / t0).ln();
+    Some(setting.rms()?.scaled(1.0 / (e0 * (e1 / e0).powf(share))))
 }
 
 /// The curves over what `place` says.

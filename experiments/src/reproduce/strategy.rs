@@ -13,6 +13,8 @@ pub(super) struct Strategy {
     pub(super) title: &'static str,
     method: Method,
     direct: Direct,
+    /// Rays of each site of an irradiance cache and pass; `None` without one.
+    cache: Option<u32>,
 }
 
 /// Photons of the nearest-photon strategies.
@@ -25,6 +27,7 @@ impl Strategy {
         title: "nearest, all light from photons",
         method: Method::Nearest { k: Some(K) },
         direct: Direct::Photons,
+        cache: None,
     };
     /// The same with a fixed radius.
     pub(super) const RADIUS_DIRECT_VIEW: Strategy = Strategy {
@@ -32,6 +35,7 @@ impl Strategy {
         title: "radius, all light from photons",
         method: Method::Radius { radius: None },
         direct: Direct::Photons,
+        cache: None,
     };
     /// Direct light sampled, the rest from the map at the point.
     pub(super) const NEAREST: Strategy = Strategy {
@@ -39,6 +43,7 @@ impl Strategy {
         title: "nearest, direct light sampled",
         method: Method::Nearest { k: Some(K) },
         direct: Direct::Sampled,
+        cache: None,
     };
     /// Final gather.
     pub(super) const FINAL_GATHER: Strategy = Strategy {
@@ -46,10 +51,25 @@ impl Strategy {
         title: "final gather",
         method: Method::FinalGather { radius: None },
         direct: Direct::Sampled,
+        cache: None,
     };
     /// Path tracing.
     pub(super) const PATH: Strategy =
-        Strategy { id: "path", title: "path tracing", method: Method::Path, direct: Direct::Sampled };
+        Strategy { id: "path", title: "path tracing", method: Method::Path, direct: Direct::Sampled, cache: None };
+    /// Final gather at few places, and told of all between.
+    pub(super) const CACHED: Strategy = Strategy {
+        id: "irradiance-cache",
+        title: "final gather, irradiance cache",
+        cache: Some(64),
+        ..Self::FINAL_GATHER
+    };
+    /// Direct light sampled, the rest from balls at the point, tuned and shrinking from pass to pass.
+    pub(super) const PROGRESSIVE: Strategy = Strategy {
+        id: "progressive",
+        title: "progressive, direct light sampled",
+        direct: Direct::Sampled,
+        ..Self::RADIUS_DIRECT_VIEW
+    };
 
     /// Every strategy, the paper's direct view first.
     pub(super) const ALL: [Strategy; 5] =
@@ -72,8 +92,8 @@ impl Strategy {
             method: self.method,
             direct: self.direct,
             estimator: Estimator::default(),
-            gather_rays: 1,
-            cache: false,
+            gather_rays: self.cache.unwrap_or(1),
+            cache: self.cache.is_some(),
             draws: Draws::Independent,
             seed,
             limits: Limits::default(),

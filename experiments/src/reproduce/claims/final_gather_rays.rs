@@ -1,25 +1,21 @@
 //! `final-gather-rays`: rays of final gather against paths of path tracing at equal error.
 
 use photonlab_measure::{Comparison, Expected, Interval, Record, Verdict};
-use photonlab_readout::{Cell, Wanted};
+use photonlab_readout::Cell;
 use photonlab_reference::cube::Cube;
-use photonlab_scene::Film;
 use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
+    cornell_picture::cornell_box,
     cube_field::METERS,
     lab::Lab,
     ray_curves::{Bench, CONFIDENCE, Curve, Measured, chart, path_law, paths_per_ray, time_ratio},
-    strategy::Strategy,
 };
 
 const CUBE: &str = include_str!("../../../scenes/cube.xml");
-const CORNELL_BOX: &str = include_str!("../../../scenes/cornell-box.xml");
 /// Pixels across and down the picture of the Cornell box.
 const SIZE: u32 = 12;
-/// Pixels brighter than this many times the picture's mean show the lamp.
-const LAMP: f64 = 8.0;
 /// A gather ray is expected to be worth at most this many paths.
 const MOST: f64 = 10.0;
 
@@ -51,8 +47,12 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let mut found = Findings { seeds: seeds.clone().chain([control_seed]).collect(), ..Findings::default() };
     let curves = cube()?.curves(&p.points, &p.photons, seeds.clone(), &mut found)?;
     let cube = judge("CUBE", "per meter", &curves, &p, &mut found)?;
-    let curves =
-        cornell_box(control_seed, p.control_points)?.curves(&p.pixel_points, &p.pixel_photons, seeds, &mut found)?;
+    let curves = cornell_box(SIZE, control_seed, p.control_points)?.curves(
+        &p.pixel_points,
+        &p.pixel_photons,
+        seeds,
+        &mut found,
+    )?;
     let cornell_box = judge("the Cornell box", "per pixel", &curves, &p, &mut found)?;
     let (verdict, reason) = conclude(&cube, &cornell_box, p.precision);
     Ok(context.record(found, verdict, reason))
@@ -64,25 +64,7 @@ fn cube() -> anyhow::Result<Bench<1>> {
     let solution = Cube::BENCHMARK.solve();
     let truth = METERS.map(|(_, [u, v])| solution.luminance(u, v));
     let cells = Cell::of_meters(&lab.world.scene);
-    Ok(Bench { id: "cube", lab, cells, truth: truth.map(|l| Some(([l], l))).to_vec() })
-}
-
-/// A small picture against a path-traced control, relative to the control's mean, the lamp left out.
-fn cornell_box(seed: u64, points: u64) -> anyhow::Result<Bench<3>> {
-    let mut lab = Lab::new("cornell-box.xml", CORNELL_BOX, &[])?;
-    lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
-    let cells = Cell::of_sensor(&lab.world.scene, 0);
-    let wanted = Wanted { samples: Some(points), ..Wanted::default() };
-    let control = lab.read::<3>(&cells, Strategy::PATH.settings(seed), &wanted, CONFIDENCE)?;
-    let pixels: Vec<[f64; 3]> =
-        control.cells.iter().map(|cell| std::array::from_fn(|c| cell.value[c].mean().unwrap_or(0.0))).collect();
-    let mean_of = |pixels: &[[f64; 3]]| pixels.iter().flatten().sum::<f64>() / (3 * pixels.len()) as f64;
-    let all = mean_of(&pixels);
-    let shows_lamp = |pixel: &[f64; 3]| pixel.iter().any(|&l| l > LAMP * all);
-    let rest: Vec<[f64; 3]> = pixels.iter().copied().filter(|pixel| !shows_lamp(pixel)).collect();
-    let scale = mean_of(&rest);
-    let truth = pixels.iter().map(|pixel| (!shows_lamp(pixel)).then_some((*pixel, scale))).collect();
-    Ok(Bench { id: "cornell-box", lab, cells, truth })
+    Ok(Bench { id: "cube", lab, cells, truth: truth.map(|l| Some(([l], l))).to_vec(), border: Vec::new() })
 }
 
 /// Comparisons and figures of one scene.

@@ -11,6 +11,7 @@ mod final_gather_rays;
 mod fine_detail;
 mod fixed_noisier;
 mod interior;
+mod irradiance_cache;
 mod kd_memory;
 mod knn_bias;
 mod range_search;
@@ -42,6 +43,7 @@ pub(super) enum Claim {
     KdMemory,
     ViewIndependence,
     Interior,
+    IrradianceCache,
     Caustics,
     FineDetail,
     RenderingEquation,
@@ -54,7 +56,7 @@ pub(super) enum Claim {
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
     /// for.
-    pub(super) const ALL: [Claim; 18] = [
+    pub(super) const ALL: [Claim; 19] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -69,6 +71,7 @@ impl Claim {
         Claim::KdMemory,
         Claim::ViewIndependence,
         Claim::Interior,
+        Claim::IrradianceCache,
         Claim::Caustics,
         Claim::FineDetail,
         Claim::RenderingEquation,
@@ -92,6 +95,7 @@ impl Claim {
             Claim::KdMemory => "kd-memory",
             Claim::ViewIndependence => "view-independence",
             Claim::Interior => "interior",
+            Claim::IrradianceCache => "irradiance-cache",
             Claim::Caustics => "caustics",
             Claim::FineDetail => "fine-detail",
             Claim::RenderingEquation => "rendering-equation",
@@ -119,6 +123,7 @@ impl Claim {
             Claim::KdMemory => include_str!("../../../definitions/kd-memory.toml"),
             Claim::ViewIndependence => include_str!("../../../definitions/view-independence.toml"),
             Claim::Interior => include_str!("../../../definitions/interior.toml"),
+            Claim::IrradianceCache => include_str!("../../../definitions/irradiance-cache.toml"),
             Claim::Caustics => include_str!("../../../definitions/caustics.toml"),
             Claim::FineDetail => include_str!("../../../definitions/fine-detail.toml"),
             Claim::RenderingEquation => include_str!("../../../definitions/rendering-equation.toml"),
@@ -146,6 +151,7 @@ impl Claim {
             Claim::KdMemory => kd_memory::run(context),
             Claim::ViewIndependence => view_independence::run(context),
             Claim::Interior => interior::run(context),
+            Claim::IrradianceCache => irradiance_cache::run(context),
             Claim::Caustics => caustics::run(context),
             Claim::FineDetail => fine_detail::run(context),
             Claim::RenderingEquation => rendering_equation::run(context),
