@@ -6,13 +6,15 @@ use photonlab_kdtree::{KdTree, Neighbours, SplitRule};
 use photonlab_sampling::{Purpose, Stream};
 use rayon::prelude::*;
 
-use crate::{Cell, Method, Session, look::Look};
+use crate::{Cell, Method, Session, Settings, look::Look};
 
 /// Places that are asked whether the cache covers them, all cells together, unless cells are more.
 const CANDIDATES: usize = 1 << 14;
 /// Rays that tell how far things are.
 const RAYS_OF_REACH: u32 = 64;
-/// Sites are chosen before any pass, by numbers of their own.
+/// Sites are chosen before any pass, by numbers of their own, whatever the run's seed: each run would have another bias else, of which the
+/// spread of its passes shows nothing.
+const SEED: u64 = 0;
 const PASS: u32 = u32::MAX - 3;
 /// Candidates in the first batch; each one after takes half as many as were asked before it.
 const FIRST_BATCH: usize = 64;
@@ -57,13 +59,14 @@ impl<const C: usize> Session<'_, C> {
     /// Where the cache looks around: places that cells read, so that some site stands for each. Candidates come in an order without
     /// pattern and in growing batches, so that sites far apart come first; of each batch those become sites that none before stands for.
     pub(crate) fn sites(&self, look: &Look<'_, C>, cells: &[Cell]) -> Sites<C> {
-        let spots = candidates(&Look { pass: PASS, ..*look }, cells);
+        let settings = Settings { seed: SEED, ..self.settings };
+        let spots = candidates(&Look { pass: PASS, settings: &settings, ..*look }, cells);
         let spacings = self.spacings(&spots);
         let (low, high) = self.world.bounds();
         let shortest = SHORTEST * (high - low).max_element();
         let gatherer = look.gatherer(true);
         let mut order: Vec<(f64, usize)> =
-            (0..spots.len()).map(|index| (self.cache_stream(PASS - 1, index).next(), index)).collect();
+            (0..spots.len()).map(|index| (rays(SEED, PASS - 1, index).next(), index)).collect();
         order.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
         let mut sites = Sites::default();
         let mut asked = 0;
@@ -76,7 +79,7 @@ impl<const C: usize> Session<'_, C> {
                 .filter(|(_, spot)| !sites.cover(spot))
                 .map(|(index, spot)| {
                     let reaches = [(spacings[index] / ACCURACY).max(shortest), 2.0 * self.largest_radius()];
-                    Site::new(spot, &gatherer, RAYS_OF_REACH, reaches, &mut self.cache_stream(PASS, index))
+                    Site::new(spot, &gatherer, RAYS_OF_REACH, reaches, &mut rays(SEED, PASS, index))
                 })
                 .collect();
             let mut taken: Vec<Site<C>> = Vec::new();
@@ -96,13 +99,9 @@ impl<const C: usize> Session<'_, C> {
     pub(crate) fn records(&self, look: &Look<'_, C>, sites: &Sites<C>) -> Vec<Record<C>> {
         let gatherer = look.gatherer(true);
         let measure = |scratch: &mut Scratch, (index, site): (usize, &Site<C>)| {
-            site.measure(&gatherer, self.settings.gather_rays, &mut self.cache_stream(look.pass, index), scratch)
+            site.measure(&gatherer, self.settings.gather_rays, &mut rays(self.settings.seed, look.pass, index), scratch)
         };
         sites.all().par_iter().enumerate().map_init(Scratch::default, measure).collect()
-    }
-
-    fn cache_stream(&self, pass: u32, index: usize) -> Stream {
-        Stream::new(self.settings.seed, Purpose::Cache, pass, index as u64)
     }
 
     /// How far the nearest few other spots lie from each, metres.
@@ -117,6 +116,11 @@ impl<const C: usize> Session<'_, C> {
         };
         places.par_iter().map_init(Neighbours::default, farthest).collect()
     }
+}
+
+/// Random numbers of a site's rays.
+fn rays(seed: u64, pass: u32, index: usize) -> Stream {
+    Stream::new(seed, Purpose::Cache, pass, index as u64)
 }
 
 /// Plain spots that cells read, in the cells' order.

@@ -12,7 +12,7 @@ use serde::Deserialize;
 use crate::{
     by_channels,
     certificate::{doubt, nothing, objections},
-    chosen::DEFAULT_ESTIMATOR,
+    chosen::{DEFAULT_ESTIMATOR, usual_gather_rays},
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
@@ -31,13 +31,27 @@ const SHORT: f64 = 0.01;
 /// Most of the median half-width over the RMS error.
 const WIDEST: f64 = 3.0;
 
-const METHODS: [(&str, Method); 5] = [
-    ("final gather", Method::FinalGather { radius: None }),
-    ("fixed radius", Method::Radius { radius: None }),
-    ("k nearest", Method::Nearest { k: None }),
-    ("path tracing", Method::Path),
-    ("photons counted", Method::Bins),
+const METHODS: [(&str, Way); 6] = [
+    ("final gather", Way::plain(Method::FinalGather { radius: None })),
+    ("irradiance cache", Way { cache: true, ..Way::plain(Method::FinalGather { radius: None }) }),
+    ("fixed radius", Way::plain(Method::Radius { radius: None })),
+    ("k nearest", Way::plain(Method::Nearest { k: None })),
+    ("path tracing", Way::plain(Method::Path)),
+    ("photons counted", Way::plain(Method::Bins)),
 ];
+
+/// How a scene is read.
+#[derive(Clone, Copy)]
+struct Way {
+    method: Method,
+    cache: bool,
+}
+
+impl Way {
+    const fn plain(method: Method) -> Self {
+        Self { method, cache: false }
+    }
+}
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -76,8 +90,8 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         put_down(&case, &path)?;
         let lab = Lab::open(&path)?;
         let first = p.seed + 1000 * (number as u64 + 1);
-        for (&(name, method), parts) in METHODS.iter().zip(&mut parts) {
-            let (runs, truths) = by_channels!(lab.needs.channels, read(&lab, &case, method, &p, first))?;
+        for (&(name, way), parts) in METHODS.iter().zip(&mut parts) {
+            let (runs, truths) = by_channels!(lab.needs.channels, read(&lab, &case, way, &p, first))?;
             if truths.is_empty() {
                 continue;
             }
@@ -116,7 +130,7 @@ fn fnv1a(text: &str) -> u64 {
 fn read<const C: usize>(
     lab: &Lab,
     case: &Case,
-    method: Method,
+    Way { method, cache }: Way,
     p: &Parameters,
     first: u64,
 ) -> anyhow::Result<(Vec<Run>, Vec<Truth>)> {
@@ -136,8 +150,8 @@ fn read<const C: usize>(
         method,
         direct: Direct::Sampled,
         estimator: DEFAULT_ESTIMATOR,
-        gather_rays: 1,
-        cache: false,
+        gather_rays: usual_gather_rays(cache),
+        cache,
         draws: method.usual_draws(),
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
