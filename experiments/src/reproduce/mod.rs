@@ -1,6 +1,7 @@
 //! `photonlab reproduce`: claims to records, figures and a report.
 
 mod atlas;
+mod billions_chart;
 mod case_charts;
 mod case_judgement;
 mod case_reading;
@@ -9,13 +10,16 @@ mod caustic_profile;
 mod checker_detail;
 mod claims;
 mod context;
+mod convergence;
 mod covered;
 mod cpu_clock;
+mod cube_error;
 mod cube_field;
 mod cube_law;
 mod date;
 mod definition;
 mod edges;
+mod face_edges;
 mod faces;
 mod far;
 mod field;
@@ -24,6 +28,7 @@ mod growth;
 mod lab;
 mod lamp_caustic;
 mod photon_set;
+mod picture;
 mod placed;
 mod ray_curves;
 mod receivers;

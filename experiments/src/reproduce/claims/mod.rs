@@ -1,5 +1,6 @@
 //! The claims, one file each.
 
+mod billions;
 mod catalogue;
 mod caustics;
 mod coverage;
@@ -35,6 +36,7 @@ pub(super) enum Claim {
     EdgeDarkening,
     FinalGatherEdges,
     FinalGatherRays,
+    Billions,
     SplitCost,
     SplitQuadratic,
     StopRule,
@@ -54,7 +56,7 @@ pub(super) enum Claim {
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
     /// for.
-    pub(super) const ALL: [Claim; 18] = [
+    pub(super) const ALL: [Claim; 19] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -62,6 +64,7 @@ impl Claim {
         Claim::EdgeDarkening,
         Claim::FinalGatherEdges,
         Claim::FinalGatherRays,
+        Claim::Billions,
         Claim::SplitCost,
         Claim::SplitQuadratic,
         Claim::StopRule,
@@ -85,6 +88,7 @@ impl Claim {
             Claim::EdgeDarkening => "edge-darkening",
             Claim::FinalGatherEdges => "final-gather-edges",
             Claim::FinalGatherRays => "final-gather-rays",
+            Claim::Billions => "billions",
             Claim::SplitCost => "split-cost",
             Claim::SplitQuadratic => "split-quadratic",
             Claim::StopRule => "stop-rule",
@@ -112,6 +116,7 @@ impl Claim {
             Claim::EdgeDarkening => include_str!("../../../definitions/edge-darkening.toml"),
             Claim::FinalGatherEdges => include_str!("../../../definitions/final-gather-edges.toml"),
             Claim::FinalGatherRays => include_str!("../../../definitions/final-gather-rays.toml"),
+            Claim::Billions => include_str!("../../../definitions/billions.toml"),
             Claim::SplitCost => include_str!("../../../definitions/split-cost.toml"),
             Claim::SplitQuadratic => include_str!("../../../definitions/split-quadratic.toml"),
             Claim::StopRule => include_str!("../../../definitions/stop-rule.toml"),
@@ -139,6 +144,7 @@ impl Claim {
             Claim::EdgeDarkening => edge_darkening::run(context),
             Claim::FinalGatherEdges => final_gather_edges::run(context),
             Claim::FinalGatherRays => final_gather_rays::run(context),
+            Claim::Billions => billions::run(context),
             Claim::SplitCost => split_cost::run(context),
             Claim::SplitQuadratic => split_quadratic::run(context),
             Claim::StopRule => stop_rule::run(context),
