@@ -109,7 +109,7 @@ impl Picture {
     /// Distance from the nearest edge, ray and landing point of one ray in each stratum that meets no lamp.
     fn candidates(&self, random: &mut Stream) -> Vec<(f64, Ray, DVec3)> {
         let world = &self.lab.world;
-        let mut candidate = |stratum: usize| {
+        let candidate = |stratum: usize| {
             let [x, y] = random.next2();
             let place = [(stratum % STRATA) as f64 + x, (stratum / STRATA) as f64 + y].map(|x| x / STRATA as f64);
             let ray = (self.ray)(world, place);
@@ -117,7 +117,7 @@ impl Picture {
             let is_lit = hit.front && world.shape_of(hit.point.primitive).radiance.is_none();
             is_lit.then(|| (self.edges.distance(hit.point.position), ray, hit.point.position))
         };
-        (0..STRATA * STRATA).filter_map(|stratum| candidate(stratum)).collect()
+        (0..STRATA * STRATA).filter_map(candidate).collect()
     }
 }
 

@@ -153,7 +153,7 @@ impl Law {
         let squares = course.photons.iter().map(|&n| (n as f64, square(n as f64))).collect();
         let mut needed = BILLION;
         // Either power makes noise and, in leading order, bias fall as photons^(2 power - 1), so that few steps lead there.
-        for _ in 0..5 {
+        for _ in 0..3 {
             needed *= (square(needed) / target.powi(2)).powf(1.0 / (1.0 - 2.0 * course.power));
         }
         Self { squares, needed }
