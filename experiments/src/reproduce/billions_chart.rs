@@ -41,7 +41,8 @@ pub(super) fn chart(lines: &[Line<'_>], law: &[(f64, f64)], target: f64, table: 
         title: format!("The direct view's error, {part}"),
         caption: format!(
             "All light from photons within a radius fixed in advance for each number of them, read at points of the picture; relative to the \
-             picture's mean. Where a line goes on beyond the marks it is an extrapolation. {}.",
+             picture's mean. Where a line goes on beyond the marks it is an extrapolation. {} replicates; {}.",
+            lines.first().map_or(0, |line| line.trend.replicates()),
             table.intervals()
         ),
         x: Axis::log("photons"),

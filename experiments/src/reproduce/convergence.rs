@@ -1,5 +1,7 @@
 //! The error of the direct view against the photons, over replicates.
 
+use std::ops::Range;
+
 use photonlab_measure::{Interval, LogLogFit, Replicates, SlopeError, fit_log_log};
 use photonlab_readout::{Outcome, Wanted};
 
@@ -17,9 +19,10 @@ const MILLION: f64 = 1e6;
 const PASS: u64 = 1_000_000;
 
 /// How a picture's part is read: its radius is a function of the photons, fixed in advance.
-#[derive(Clone, Copy)]
 pub(super) struct Course<'p> {
     pub(super) region: Region,
+    /// One replicate each.
+    pub(super) seeds: Range<u64>,
     /// Emitted in all passes of a run, ascending.
     pub(super) photons: &'p [u64],
     /// Of the gather disc with a million photons, metres.
@@ -54,12 +57,11 @@ impl Course<'_> {
     pub(super) fn read<const C: usize>(
         &self,
         picture: &Picture,
-        seeds: std::ops::Range<u64>,
         truth: impl Fn(&[Spot], u64) -> anyhow::Result<Vec<Known<C>>>,
         found: &mut Findings,
     ) -> anyhow::Result<Trend> {
         let mut squares = Vec::new();
-        for seed in seeds {
+        for seed in self.seeds.clone() {
             let spots = picture.spots(self.region, self.points, seed);
             let truth = truth(&spots, seed)?;
             let cells: Vec<_> = spots.iter().map(|spot| spot.cell.clone()).collect();
@@ -109,6 +111,10 @@ fn mean_squares<const C: usize>(spots: &[Spot], truth: &[Known<C>], outcome: &Ou
 }
 
 impl Trend {
+    pub(super) fn replicates(&self) -> usize {
+        self.squares.len()
+    }
+
     /// Mean over the replicates.
     pub(super) fn square(&self, number: usize, confidence: f64) -> Option<Interval> {
         self.squares.iter().map(|of_seed| of_seed[number]).collect::<Replicates>().interval(confidence)
@@ -138,7 +144,7 @@ impl Trend {
 
     /// The law through the mean errors.
     pub(super) fn law(&self) -> Result<LogLogFit, SlopeError> {
-        let count = self.squares.len().max(1) as f64;
+        let count = self.replicates().max(1) as f64;
         let mean = |number: usize| self.squares.iter().map(|of_seed| of_seed[number]).sum::<f64>() / count;
         fit(&self.photons, (0..self.photons.len()).map(mean))
     }

@@ -1,6 +1,6 @@
 //! `billions`: the error of a picture read directly from the map against the photons.
 
-use std::f64::consts::PI;
+use std::{f64::consts::PI, ops::Range};
 
 use photonlab_measure::{Comparison, Expected, Interval, Record, Verdict};
 use photonlab_readout::Wanted;
@@ -32,7 +32,10 @@ const SMOOTH_POWER: f64 = 1.0 / 6.0;
 #[serde(deny_unknown_fields)]
 struct Parameters {
     seed: u64,
+    /// Over the whole picture.
     replicates: u64,
+    /// Far from edges: wide discs share photons, so that one picture says less, and costs less.
+    smooth_replicates: u64,
     /// Of a run over the whole picture, ascending.
     photons: Vec<u64>,
     /// Of a run far from edges.
@@ -62,17 +65,25 @@ struct Radii {
 }
 
 impl Parameters {
-    fn seeds(&self) -> std::ops::Range<u64> {
-        self.seed..self.seed + self.replicates
+    fn seeds(&self, replicates: u64) -> Range<u64> {
+        self.seed..self.seed + replicates
     }
 
     /// The whole picture, and what is far from edges.
     fn courses(&self, radii: Radii) -> [Course<'_>; 2] {
         let points = self.points;
         [
-            Course { region: Region::Whole, photons: &self.photons, radius: radii.radius, power: EDGE_POWER, points },
+            Course {
+                region: Region::Whole,
+                seeds: self.seeds(self.replicates),
+                photons: &self.photons,
+                radius: radii.radius,
+                power: EDGE_POWER,
+                points,
+            },
             Course {
                 region: Region::FromEdges(radii.from_edges),
+                seeds: self.seeds(self.smooth_replicates),
                 photons: &self.smooth_photons,
                 radius: radii.smooth_radius,
                 power: SMOOTH_POWER,
@@ -96,7 +107,7 @@ struct Law {
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let mut found = Findings { seeds: p.seeds().collect(), ..Findings::default() };
+    let mut found = Findings { seeds: p.seeds(p.replicates.max(p.smooth_replicates)).collect(), ..Findings::default() };
     let field = CubeField::new();
     let laws = p.courses(p.cube).map(|course| Law::of(&field, &course, p.target));
     let scenes = [cube(&p, &field, &mut found)?, cornell_box(&p, &mut found)?];
@@ -126,7 +137,7 @@ fn cube(p: &Parameters, field: &CubeField, found: &mut Findings) -> anyhow::Resu
         };
         Ok(spots.iter().map(known).collect())
     };
-    let [whole, smooth] = p.courses(p.cube).map(|course| course.read(&picture, p.seeds(), truth, found));
+    let [whole, smooth] = p.courses(p.cube).map(|course| course.read(&picture, truth, found));
     Ok(Scene { title: picture.title, trends: [whole?, smooth?] })
 }
 
@@ -143,7 +154,7 @@ fn cornell_box(p: &Parameters, found: &mut Findings) -> anyhow::Result<Scene> {
         });
         Ok(known.collect())
     };
-    let [whole, smooth] = p.courses(p.cornell_box).map(|course| course.read(&picture, p.seeds(), truth, found));
+    let [whole, smooth] = p.courses(p.cornell_box).map(|course| course.read(&picture, truth, found));
     Ok(Scene { title: picture.title, trends: [whole?, smooth?] })
 }
 
