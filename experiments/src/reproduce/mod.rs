@@ -1,6 +1,7 @@
 //! `photonlab reproduce`: claims to records, figures and a report.
 
 mod atlas;
+mod billions_chart;
 mod case_charts;
 mod case_judgement;
 mod case_reading;
@@ -12,11 +13,13 @@ mod context;
 mod cornell_picture;
 mod covered;
 mod cpu_clock;
+mod cube_error;
 mod cube_field;
 mod cube_law;
 mod date;
 mod definition;
 mod edges;
+mod face_edges;
 mod faces;
 mod far;
 mod field;
@@ -24,7 +27,9 @@ mod furnace;
 mod growth;
 mod lab;
 mod lamp_caustic;
+mod photon_law;
 mod photon_set;
+mod picture;
 mod placed;
 mod ray_curves;
 mod receivers;

@@ -1,5 +1,6 @@
 //! The claims, one file each.
 
+mod billions;
 mod catalogue;
 mod caustics;
 mod coverage;
@@ -36,6 +37,7 @@ pub(super) enum Claim {
     EdgeDarkening,
     FinalGatherEdges,
     FinalGatherRays,
+    Billions,
     SplitCost,
     SplitQuadratic,
     StopRule,
@@ -56,7 +58,7 @@ pub(super) enum Claim {
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
     /// for.
-    pub(super) const ALL: [Claim; 19] = [
+    pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
         Claim::EvenNoise,
@@ -64,6 +66,7 @@ impl Claim {
         Claim::EdgeDarkening,
         Claim::FinalGatherEdges,
         Claim::FinalGatherRays,
+        Claim::Billions,
         Claim::SplitCost,
         Claim::SplitQuadratic,
         Claim::StopRule,
@@ -88,6 +91,7 @@ impl Claim {
             Claim::EdgeDarkening => "edge-darkening",
             Claim::FinalGatherEdges => "final-gather-edges",
             Claim::FinalGatherRays => "final-gather-rays",
+            Claim::Billions => "billions",
             Claim::SplitCost => "split-cost",
             Claim::SplitQuadratic => "split-quadratic",
             Claim::StopRule => "stop-rule",
@@ -116,6 +120,7 @@ impl Claim {
             Claim::EdgeDarkening => include_str!("../../../definitions/edge-darkening.toml"),
             Claim::FinalGatherEdges => include_str!("../../../definitions/final-gather-edges.toml"),
             Claim::FinalGatherRays => include_str!("../../../definitions/final-gather-rays.toml"),
+            Claim::Billions => include_str!("../../../definitions/billions.toml"),
             Claim::SplitCost => include_str!("../../../definitions/split-cost.toml"),
             Claim::SplitQuadratic => include_str!("../../../definitions/split-quadratic.toml"),
             Claim::StopRule => include_str!("../../../definitions/stop-rule.toml"),
@@ -144,6 +149,7 @@ impl Claim {
             Claim::EdgeDarkening => edge_darkening::run(context),
             Claim::FinalGatherEdges => final_gather_edges::run(context),
             Claim::FinalGatherRays => final_gather_rays::run(context),
+            Claim::Billions => billions::run(context),
             Claim::SplitCost => split_cost::run(context),
             Claim::SplitQuadratic => split_quadratic::run(context),
             Claim::StopRule => stop_rule::run(context),
