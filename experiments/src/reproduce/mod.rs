@@ -100,7 +100,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Atlas, Claim::Coverage]);
+    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Atlas, Claim::Coverage, Claim::Cost]);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| {
         all()

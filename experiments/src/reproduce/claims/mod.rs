@@ -3,6 +3,7 @@
 mod billions;
 mod catalogue;
 mod caustics;
+mod cost;
 mod coverage;
 mod edge_darkening;
 mod even_noise;
@@ -53,10 +54,11 @@ pub(super) enum Claim {
     Catalogue,
     Atlas,
     Coverage,
+    Cost,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage and the cost are run when they are asked
     /// for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
@@ -107,6 +109,7 @@ impl Claim {
             Claim::Catalogue => "catalogue",
             Claim::Coverage => "coverage",
             Claim::Atlas => "atlas",
+            Claim::Cost => "cost",
         }
     }
 
@@ -136,6 +139,7 @@ impl Claim {
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
             Claim::Coverage => include_str!("../../../definitions/coverage.toml"),
             Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
+            Claim::Cost => include_str!("../../../definitions/cost.toml"),
         }
     }
 
@@ -165,6 +169,7 @@ impl Claim {
             Claim::Catalogue => catalogue::run(context),
             Claim::Coverage => coverage::run(context),
             Claim::Atlas => atlas::run(context),
+            Claim::Cost => cost::run(context),
         }
     }
 }

@@ -1,0 +1,218 @@
+//! `cost`: CPU time and memory against photons and rays.
+
+use photonlab_measure::{
+    Axis, Comparison, Expected, FigureData, Interval, Point, Record, Replicates, Row, Series, SeriesKind, Verdict,
+};
+use photonlab_readout::{Cell, Wanted};
+use photonlab_scene::Film;
+use serde::Deserialize;
+
+use crate::{
+    reproduce::{
+        context::{Context, Findings},
+        cpu_clock::{CPU_SECONDS, CpuClock, microseconds},
+        lab::Lab,
+        strategy::Strategy,
+        table::row,
+    },
+    system,
+};
+
+const SCENE: &str = include_str!("../../../scenes/cornell-box.xml");
+/// Pixels across and down.
+const SIZE: u32 = 12;
+/// Confidence of each interval.
+const CONFIDENCE: f64 = 0.99;
+/// Exponents are expected within this of 1, from this count on.
+const EXPONENT: f64 = 0.15;
+const FIRST: usize = 2;
+/// Memory may grow by this share from where a pass is full.
+const GROWTH: f64 = 0.1;
+/// A pass's photons at most, as the schedule has them where neither error nor clock ends a run.
+const FULL: u64 = 1 << 19;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parameters {
+    seed: u64,
+    replicates: u64,
+    /// Emitted in all, rising.
+    photons: Vec<u64>,
+    /// Points of a pixel meanwhile.
+    points: u64,
+    /// Final-gather rays in all, rising.
+    rays: Vec<u64>,
+    photons_for_rays: u64,
+    /// Largest half-width of an exponent.
+    precision: f64,
+}
+
+/// Costs at rising counts of one kind.
+struct Growth {
+    of: &'static str,
+    points: Vec<Cost>,
+}
+
+struct Cost {
+    count: u64,
+    seconds: Vec<f64>,
+    /// Largest of the replicates, where the system tells.
+    bytes: Option<u64>,
+}
+
+pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
+    let p: Parameters = context.parameters()?;
+    let mut lab = Lab::new("cornell-box.xml", SCENE, &[])?;
+    lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
+    let pixels = u64::from(SIZE * SIZE);
+    let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
+    let of_photons: Vec<_> = p.photons.iter().map(|&photons| (photons, photons, p.points)).collect();
+    let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_for_rays, rays.div_ceil(pixels))).collect();
+    let growths = [
+        Growth::measure("photons", &lab, &of_photons, &p, &mut found)?,
+        Growth::measure("rays", &lab, &of_rays, &p, &mut found)?,
+    ];
+    let mut narrow = true;
+    for growth in &growths {
+        narrow &= growth.judge(p.precision, &mut found);
+    }
+    found.figures = vec![time(&growths, p.replicates), memory(&growths)];
+    let (verdict, reason) = conclude(&growths, narrow, &found);
+    Ok(context.record(found, verdict, reason))
+}
+
+impl Growth {
+    /// Counts, each with the photons and the points of a pixel that make it. The replicates of one count follow each other, from few to many,
+    /// so that what the process has held before is less than what it holds now.
+    fn measure(
+        of: &'static str,
+        lab: &Lab,
+        counts: &[(u64, u64, u64)],
+        p: &Parameters,
+        found: &mut Findings,
+    ) -> anyhow::Result<Self> {
+        let cells = Cell::of_sensor(&lab.world.scene, 0);
+        let mut points = Vec::new();
+        for &(count, photons, samples) in counts {
+            system::forget_peak();
+            let mut seconds = Vec::new();
+            for seed in p.seed..p.seed + p.replicates {
+                let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
+                let clock = CpuClock::start();
+                lab.read::<3>(&cells, Strategy::FINAL_GATHER.settings(seed), &wanted, CONFIDENCE)?;
+                seconds.push(clock.seconds());
+            }
+            let bytes = system::peak_bytes();
+            for (seed, &spent) in (p.seed..).zip(&seconds) {
+                found.rows.push(cost_row(of, count, seed, spent, bytes));
+            }
+            points.push(Cost { count, seconds, bytes });
+        }
+        Ok(Self { of, points })
+    }
+
+    /// The exponent of time between two neighbouring counts, by seeds in pairs.
+    fn exponent(pair: &[Cost]) -> Option<Interval> {
+        let decades = (pair[1].count as f64 / pair[0].count as f64).ln();
+        let pairs = pair[0].seconds.iter().zip(&pair[1].seconds);
+        let exponents: Replicates = pairs.map(|(less, more)| (more / less).ln() / decades).collect();
+        exponents.interval(CONFIDENCE)
+    }
+
+    /// Memory at the most counts over that at the fewest that fill a pass.
+    fn growth_of_memory(&self) -> Option<f64> {
+        let full = self.points.iter().find(|cost| self.of == "rays" || cost.count >= 16 * FULL)?;
+        Some(self.points.last()?.bytes? as f64 / full.bytes? as f64)
+    }
+
+    /// False if an interval is wider than asked.
+    fn judge(&self, precision: f64, found: &mut Findings) -> bool {
+        let mut narrow = true;
+        for pair in self.points.windows(2).skip(FIRST - 1) {
+            let exponent = Self::exponent(pair);
+            narrow &= exponent.is_some_and(|exponent| exponent.half_width() <= precision);
+            let expected = Expected::within(1.0, EXPONENT, "passes share nothing");
+            let label = format!("exponent of CPU time in {}, {} to {}", self.of, pair[0].count, pair[1].count);
+            found.comparisons.push(Comparison::judge(label, "1", expected, exponent));
+        }
+        if let Some(growth) = self.growth_of_memory() {
+            let source = "a pass bounds memory".into();
+            let expected = Expected { value: 1.0, low: 0.0, high: 1.0 + GROWTH, source };
+            let measured = Interval { value: growth, low: growth, high: growth, confidence: CONFIDENCE };
+            let label = format!("largest memory, most {} over the fewest that fill a pass", self.of);
+            found.comparisons.push(Comparison::judge(label, "1", expected, Some(measured)));
+        }
+        narrow
+    }
+}
+
+fn conclude(growths: &[Growth], narrow: bool, found: &Findings) -> (Verdict, String) {
+    let missed = found.comparisons.iter().any(|comparison| comparison.holds == Some(false));
+    let told = |growth: &Growth| {
+        let exponents = growth.points.windows(2).skip(FIRST - 1).filter_map(Growth::exponent);
+        let exponents: Vec<String> = exponents.map(|exponent| format!("{:.2}", exponent.value)).collect();
+        let memory =
+            growth.growth_of_memory().map_or(String::new(), |by| format!(", memory by {by:.2} from a full pass on"));
+        format!("with {} as the power {}{memory}", growth.of, exponents.join(", "))
+    };
+    let reason = format!("CPU time grows {}; {}", told(&growths[0]), told(&growths[1]));
+    match (missed, narrow) {
+        (true, _) => (Verdict::DoesNotHold, reason),
+        (false, true) => (Verdict::Holds, reason),
+        (false, false) => (Verdict::NotMeasured, format!("{reason}; the intervals are wider than the definition asks")),
+    }
+}
+
+fn series(label: &str, kind: SeriesKind, points: Vec<Point>) -> Series {
+    Series { label: label.into(), kind, points }
+}
+
+fn time(growths: &[Growth], replicates: u64) -> FigureData {
+    let mut all = Vec::new();
+    for growth in growths {
+        let measured = |cost: &Cost| {
+            let seconds: Replicates = cost.seconds.iter().copied().collect();
+            Some(Point::measured(cost.count as f64, seconds.interval(CONFIDENCE)?))
+        };
+        all.push(series(growth.of, SeriesKind::Measured, growth.points.iter().filter_map(measured).collect()));
+        if let Some(last) = growth.points.last() {
+            let mean = last.seconds.iter().sum::<f64>() / last.seconds.len() as f64;
+            let line = |cost: &Cost| Point::new(cost.count as f64, mean * cost.count as f64 / last.count as f64);
+            let label = format!("in proportion to {}", growth.of);
+            all.push(series(&label, SeriesKind::Reference, growth.points.iter().map(line).collect()));
+        }
+    }
+    FigureData {
+        id: "time".into(),
+        title: "Final gather in the Cornell box: time against photons and rays".into(),
+        caption: format!("{replicates} seeds a point; bars: 99 % intervals. {CPU_SECONDS}."),
+        x: Axis::log("photons, or rays, in all"),
+        y: Axis::log("CPU seconds"),
+        series: all,
+    }
+}
+
+fn memory(growths: &[Growth]) -> FigureData {
+    let of = |growth: &Growth| {
+        let point = |cost: &Cost| Some(Point::new(cost.count as f64, cost.bytes? as f64 / (1 << 20) as f64));
+        series(growth.of, SeriesKind::Measured, growth.points.iter().filter_map(point).collect())
+    };
+    FigureData {
+        id: "memory".into(),
+        title: "Final gather in the Cornell box: memory against photons and rays".into(),
+        caption: "Largest resident memory of the process, where the system tells it.".into(),
+        x: Axis::log("photons, or rays, in all"),
+        y: Axis::log("MiB"),
+        series: growths.iter().map(of).collect(),
+    }
+}
+
+fn cost_row(of: &str, count: u64, seed: u64, seconds: f64, bytes: Option<u64>) -> Row {
+    row([
+        ("of", of.into()),
+        ("count", count.into()),
+        ("seed", seed.into()),
+        ("cpu_seconds", microseconds(seconds).into()),
+        ("peak_bytes", bytes.into()),
+    ])
+}
