@@ -15,6 +15,7 @@ mod cpu_clock;
 mod cube_field;
 mod cube_law;
 mod date;
+mod decay;
 mod definition;
 mod edges;
 mod faces;
@@ -26,6 +27,7 @@ mod lab;
 mod lamp_caustic;
 mod photon_set;
 mod placed;
+mod progressive;
 mod ray_curves;
 mod receivers;
 mod report;
@@ -39,6 +41,7 @@ mod stop_charts;
 mod stopped;
 mod strategy;
 mod table;
+mod torus;
 mod transmitter;
 mod trials;
 mod uneven;
@@ -95,7 +98,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Atlas, Claim::Coverage]);
+    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Atlas, Claim::Coverage, Claim::Convergence]);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| {
         all()

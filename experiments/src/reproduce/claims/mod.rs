@@ -2,6 +2,7 @@
 
 mod catalogue;
 mod caustics;
+mod convergence;
 mod coverage;
 mod edge_darkening;
 mod even_noise;
@@ -51,11 +52,12 @@ pub(super) enum Claim {
     Catalogue,
     Atlas,
     Coverage,
+    Convergence,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas and the coverage are run when they are asked
-    /// for.
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage and the convergence are run
+    /// when they are asked for.
     pub(super) const ALL: [Claim; 19] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -102,6 +104,7 @@ impl Claim {
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
             Claim::Coverage => "coverage",
+            Claim::Convergence => "convergence",
             Claim::Atlas => "atlas",
         }
     }
@@ -130,6 +133,7 @@ impl Claim {
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
             Claim::Coverage => include_str!("../../../definitions/coverage.toml"),
+            Claim::Convergence => include_str!("../../../definitions/convergence.toml"),
             Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
         }
     }
@@ -158,6 +162,7 @@ impl Claim {
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
             Claim::Coverage => coverage::run(context),
+            Claim::Convergence => convergence::run(context),
             Claim::Atlas => atlas::run(context),
         }
     }
