@@ -2,7 +2,7 @@
 //!
 //! Two kinds of answer: scenes, which say what the light is and write themselves as Mitsuba 3 XML from the same parameters;
 //! and laws, which say what an estimator reads on photons that are right ([`fixed_radius_law`], [`nearest_law`],
-//! [`kernel_law`], [`edge_laws`], [`atlas`]) or how a surface scatters ([`scattering`]). Scenes: direct light ([`lamps`], [`square_lamp`]),
+//! [`kernel_law`], [`edge_laws`], [`convergence`], [`atlas`]) or how a surface scatters ([`scattering`]). Scenes: direct light ([`lamps`], [`square_lamp`]),
 //! interreflection ([`cube`], [`emitting_cube`], [`closed_room`], [`integrating_sphere`], [`furnace`], [`groove`]),
 //! shadows ([`checker`]), specular paths ([`pane`], [`ball_lens`], [`paraboloid`], [`mirror_arc`], [`prism`], [`optics`]), participating media ([`medium`]),
 //! daylight ([`daylight`]); [`rendering_equation`] and [`eye`] stand by themselves. [`catalogue::ALL`] lists the scenes with what
@@ -27,8 +27,10 @@ pub mod ball_lens;
 pub mod catalogue;
 pub mod checker;
 pub mod closed_room;
+pub mod convergence;
 pub mod cube;
 pub mod daylight;
+mod disc_response;
 pub mod edge_laws;
 pub mod emitting_cube;
 pub mod eye;

@@ -32,7 +32,7 @@ pub use cells::{Cell, Target};
 pub use checked_file::partial_name;
 pub use identity::scene_identity;
 pub use map_file::{MapFile, MapFileError, MapHeader};
-pub use maps::{PassPhotons, trace_pass};
+pub use maps::{PassPhotons, SHRINK, trace_pass};
 pub use method::{Direct, Draws, Method, Settings};
 pub use outcome::{CellResult, ErrorOver, Outcome};
 pub use pass::USUAL_PASSES;

@@ -28,7 +28,7 @@ const MAP_RULE: SplitRule = SplitRule::Median;
 const PROBES: usize = 255;
 /// An automatic radius shrinks as pass^-SHRINK, so r^2 falls as pass^(-1/3) (Knaus and Zwicker 2011, alpha = 2/3):
 /// both the bias and the noise of the mean go to zero.
-pub(crate) const SHRINK: f64 = 1.0 / 6.0;
+pub const SHRINK: f64 = 1.0 / 6.0;
 
 /// What one pass's photons left, before any map is built.
 #[derive(Clone, Debug)]

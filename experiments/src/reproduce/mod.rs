@@ -17,6 +17,7 @@ mod cube_error;
 mod cube_field;
 mod cube_law;
 mod date;
+mod decay;
 mod definition;
 mod edges;
 mod face_edges;
@@ -31,6 +32,7 @@ mod photon_law;
 mod photon_set;
 mod picture;
 mod placed;
+mod progressive;
 mod ray_curves;
 mod receivers;
 mod report;
@@ -44,6 +46,7 @@ mod stop_charts;
 mod stopped;
 mod strategy;
 mod table;
+mod torus;
 mod transmitter;
 mod trials;
 mod uneven;
@@ -100,7 +103,8 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let all = || Claim::ALL.into_iter().chain([Claim::Catalogue, Claim::Atlas, Claim::Coverage, Claim::Cost]);
+    let asked = [Claim::Catalogue, Claim::Atlas, Claim::Coverage, Claim::Convergence, Claim::Cost];
+    let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| {
         all()

@@ -17,7 +17,7 @@ pub(super) struct Table {
 
 /// Below this an expected ratio counts as this much when an interval's width is judged: a leak of zero cannot be known to
 /// a share of itself.
-const LEAST: f64 = 0.01;
+pub(super) const LEAST: f64 = 0.01;
 
 impl Table {
     /// A table that will have this many comparisons.

@@ -3,6 +3,7 @@
 mod billions;
 mod catalogue;
 mod caustics;
+mod convergence;
 mod cost;
 mod coverage;
 mod edge_darkening;
@@ -54,11 +55,12 @@ pub(super) enum Claim {
     Catalogue,
     Atlas,
     Coverage,
+    Convergence,
     Cost,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage and the cost are run when they are asked
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence and the cost are run when they are asked
     /// for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
@@ -108,6 +110,7 @@ impl Claim {
             Claim::Figure1 => "figure-1",
             Claim::Catalogue => "catalogue",
             Claim::Coverage => "coverage",
+            Claim::Convergence => "convergence",
             Claim::Atlas => "atlas",
             Claim::Cost => "cost",
         }
@@ -138,6 +141,7 @@ impl Claim {
             Claim::Figure1 => include_str!("../../../definitions/figure-1.toml"),
             Claim::Catalogue => include_str!("../../../definitions/catalogue.toml"),
             Claim::Coverage => include_str!("../../../definitions/coverage.toml"),
+            Claim::Convergence => include_str!("../../../definitions/convergence.toml"),
             Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
             Claim::Cost => include_str!("../../../definitions/cost.toml"),
         }
@@ -168,6 +172,7 @@ impl Claim {
             Claim::Figure1 => figure_1::run(context),
             Claim::Catalogue => catalogue::run(context),
             Claim::Coverage => coverage::run(context),
+            Claim::Convergence => convergence::run(context),
             Claim::Atlas => atlas::run(context),
             Claim::Cost => cost::run(context),
         }
