@@ -131,7 +131,10 @@ mod tests {
             (1e5, 2178.0, 0.0015310906),
             (1e6, 10082.0, 0.00033240429),
         ] {
-            assert_eq!(best_count(photons), k);
+            // The least is flat: three photons of two thousand change it in the seventh digit.
+            let best = best_count(photons);
+            assert!((best / k - 1.0).abs() < 5e-3, "{photons}: {best}");
+            assert!(nearest(photons, best).mean_squared() < error * (1.0 + 1e-6), "{photons}: {best}");
             assert!((nearest(photons, k).mean_squared() / error - 1.0).abs() < 1e-6, "{photons}");
         }
         assert!((nearest(1e3, 103.0).bias + TRUTH - 1.393516).abs() < 1e-6);
