@@ -65,6 +65,14 @@ impl Options {
             Some(KernelName::Gaussian) => Kernel::Gaussian,
             None => DEFAULT_ESTIMATOR.kernel,
         };
+        if self.cache && !scene.media.is_empty() {
+            return Err(Failure::usage("--cache is not built yet for scenes with media; leave it out"));
+        }
+        if self.cache && self.time_limit.is_some() {
+            return Err(Failure::usage(
+                "--cache is not built yet together with --time-limit; give --target-error or counts",
+            ));
+        }
         Ok(Settings {
             method,
             direct,

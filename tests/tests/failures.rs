@@ -127,6 +127,7 @@ fn an_option_that_is_unknown_unused_or_impossible_is_an_error() {
         ("--target-error 0%", "above 0"),
         ("--confidence 1", "below 1"),
         ("--method path --cache", "--cache is not used by the method path"),
+        ("--cache --time-limit 5", "not built yet together with --time-limit"),
         ("--method path --kernel cone", "--kernel is not used by the method path"),
         ("--kernel triweight", "[possible values: disc, cone, epanechnikov, biweight, gaussian]"),
         ("--method final-gather --area clipped", "--area is not used by the method final-gather"),

@@ -49,7 +49,8 @@ impl<const C: usize> Sites<C> {
     ///
     /// Each counts with the weight 1 - difference / accuracy, which ends in nothing at the border of its zone, so that no seam shows. With
     /// gradients the error of a mean over sites grows with the square of their distance where light is smooth, and in proportion to it
-    /// where it bends sharply: that of a mean with twice the zones, less this one, is three times the bias or once.
+    /// where it bends sharply: that of a mean with twice the zones, less this one, is three times the bias or once; where one site
+    /// alone stands in both, nothing is told of it.
     pub fn tell(&self, spot: &Spot<C>, records: &[Record<C>]) -> Option<Light<C>> {
         let mut sums = [(Light::<C>::default(), 0.0); 2];
         for number in self.zones.around(spot.at.position) {
