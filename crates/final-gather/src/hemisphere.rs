@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use photonlab_photometry::Colour;
+use photonlab_sampling::warp::Frame;
 
 /// Strata of equal cosine-weighted solid angle: rows by polar angle, columns by azimuth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +44,8 @@ impl Strata {
         let (row, column) = (number / self.columns, number % self.columns);
         let sine_squared = (f64::from(row) + xi[0]) / f64::from(self.rows);
         let azimuth = TAU * (f64::from(column) + xi[1]) / f64::from(self.columns);
-        frame.direction(sine_squared, azimuth)
+        let across = sine_squared.sqrt() * DVec2::from_angle(azimuth);
+        frame.world(across.extend((1.0 - sine_squared).max(0.0).sqrt()))
     }
 
     /// Gradients from the rays of all strata, in their order (Ward and Heckbert, "Irradiance gradients", 1992). A step to the side moves
@@ -59,8 +61,8 @@ impl Strata {
         let mut gradients = Gradients { turn: [Colour::ZERO; 3], shift: [Colour::ZERO; 3] };
         for column in 0..columns {
             let middle = TAU * (column as f64 + 0.5) / columns as f64;
-            let (along, across) = (frame.around(middle), frame.around(middle + 0.5 * PI));
-            let edge = frame.around(TAU * column as f64 / columns as f64 + 0.5 * PI);
+            let (along, across) = (around(frame, middle), around(frame, middle + 0.5 * PI));
+            let edge = around(frame, TAU * column as f64 / columns as f64 + 0.5 * PI);
             let before = (column + columns - 1) % columns;
             let (mut outward, mut sideways, mut tilt) = (Colour::ZERO, Colour::ZERO, Colour::ZERO);
             for row in 0..rows {
@@ -84,29 +86,9 @@ impl Strata {
     }
 }
 
-/// Axes at a point, the third along its normal.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
-    tangent: DVec3,
-    bitangent: DVec3,
-    normal: DVec3,
-}
-
-impl Frame {
-    pub(crate) fn new(normal: DVec3) -> Self {
-        let (tangent, bitangent) = normal.any_orthonormal_pair();
-        // Whatever pair it is, azimuths run around the normal.
-        let bitangent = if tangent.cross(bitangent).dot(normal) < 0.0 { -bitangent } else { bitangent };
-        Self { tangent, bitangent, normal }
-    }
-
-    fn around(&self, azimuth: f64) -> DVec3 {
-        self.tangent * azimuth.cos() + self.bitangent * azimuth.sin()
-    }
-
-    fn direction(&self, sine_squared: f64, azimuth: f64) -> DVec3 {
-        self.around(azimuth) * sine_squared.sqrt() + self.normal * (1.0 - sine_squared).max(0.0).sqrt()
-    }
+/// The unit vector in the tangent plane at an azimuth.
+fn around(frame: &Frame, azimuth: f64) -> DVec3 {
+    frame.world(DVec2::from_angle(azimuth).extend(0.0))
 }
 
 #[cfg(test)]
@@ -115,7 +97,7 @@ mod tests {
 
     /// Irradiance and gradients that 20 000 rays find under a plane at height `h` whose radiance is `radiance(x, y)`.
     fn under_a_plane(at: DVec3, normal: DVec3, radiance: impl Fn(f64, f64) -> f64) -> (f64, Gradients<1>) {
-        let (h, strata, frame) = (2.0, Strata { rows: 80, columns: 250 }, Frame::new(normal));
+        let (h, strata, frame) = (2.0, Strata { rows: 80, columns: 250 }, Frame::around(normal));
         let found: Vec<Found<1>> = (0..20_000)
             .map(|number| {
                 let direction = strata.direction(number, [0.5; 2], &frame);

@@ -2,12 +2,12 @@
 
 use glam::DVec3;
 use photonlab_gather::Scratch;
-use photonlab_sampling::{Sight, Stream};
+use photonlab_sampling::{Sight, Stream, warp::Frame};
 use photonlab_scene::SurfacePoint;
 
 use crate::{
     Gatherer, Light,
-    hemisphere::{Found, Frame, Gradients, Strata},
+    hemisphere::{Found, Gradients, Strata},
 };
 
 /// Of a place's neighbours only those stand on its surface, as far as a cache is concerned, that lie so near the plane between both
@@ -66,7 +66,7 @@ impl<const C: usize> Site<C> {
         [least, most]: [f64; 2],
         stream: &mut Stream,
     ) -> Self {
-        let (strata, frame) = (Strata::new(rays), Frame::new(spot.normal()));
+        let (strata, frame) = (Strata::new(rays), Frame::around(spot.normal()));
         let nearness: f64 = (0..rays)
             .map(|number| {
                 let direction = strata.direction(number, stream.next2(), &frame);
@@ -103,7 +103,7 @@ impl<const C: usize> Site<C> {
         stream: &mut Stream,
         scratch: &mut Scratch,
     ) -> Record<C> {
-        let (strata, frame) = (Strata::new(rays), Frame::new(self.spot.normal()));
+        let (strata, frame) = (Strata::new(rays), Frame::around(self.spot.normal()));
         let Spot { at, sight, used } = &self.spot;
         let mut light = Light::default();
         let found: Vec<_> = (0..rays)

@@ -4,16 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
-/// An orthonormal frame, z along a unit normal.
+/// A right-handed orthonormal frame, z along a unit normal.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Frame {
+pub struct Frame {
     tangent: DVec3,
     bitangent: DVec3,
     normal: DVec3,
 }
 
 impl Frame {
-    pub(crate) fn around(normal: DVec3) -> Self {
+    /// Of a unit normal.
+    pub fn around(normal: DVec3) -> Self {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         Self { tangent, bitangent, normal }
     }
@@ -22,7 +23,8 @@ impl Frame {
         DVec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
     }
 
-    pub(crate) fn world(&self, v: DVec3) -> DVec3 {
+    /// The unit vector, in the scene's axes, of a vector in the frame's.
+    pub fn world(&self, v: DVec3) -> DVec3 {
         (v.x * self.tangent + v.y * self.bitangent + v.z * self.normal).normalize()
     }
 }
