@@ -50,8 +50,17 @@ fn lamps_that_rays_meet_count_once() {
     );
     let outcome = lab.measure::<1>(cached(1901), 400_000, 16, 1 << 12);
     for (number, cell) in outcome.cells.iter().enumerate() {
+        let half = cell.half_width(0, 0.99).expect("light");
+        assert!(half < 0.02 * 2.0 * PI, "it says something: {half}");
         family.reading(number, cell, 0, 2.0 * PI);
     }
+    // Faces of a box are drawn alone; an environment shares its draws with rays that find it.
+    let open = Lab::new(
+        r#"<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="1"/></emitter>
+        <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+        <sensor type="irradiancemeter"/></shape></scene>"#,
+    );
+    family.reading("open", &open.measure::<1>(cached(1904), 400_000, 16, 1 << 12).cells[0], 0, PI);
     family.decide();
 }
 
