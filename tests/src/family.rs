@@ -108,7 +108,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("tilted squares", 10),
     ("smooth ball", 3),
     ("cached cube", 8),
-    ("cached furnace", 5),
+    ("cached furnace", 6),
     ("cached room", 8),
 ];
 

@@ -54,13 +54,22 @@ fn lamps_that_rays_meet_count_once() {
         assert!(half < 0.02 * 2.0 * PI, "it says something: {half}");
         family.reading(number, cell, 0, 2.0 * PI);
     }
-    // Faces of a box are drawn alone; an environment shares its draws with rays that find it.
-    let open = Lab::new(
-        r#"<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="1"/></emitter>
-        <shape type="rectangle"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
-        <sensor type="irradiancemeter"/></shape></scene>"#,
-    );
-    family.reading("open", &open.measure::<1>(cached(1904), 400_000, 16, 1 << 12).cells[0], 0, PI);
+    // Faces of a box are drawn alone; an environment shares its draws with rays that find it. White walls hide none of its light.
+    let wall = |place: &str| {
+        format!(
+            r#"<shape type="rectangle"><transform name="to_world">{place}</transform><bsdf type="diffuse"><rgb name="reflectance" value="1"/></bsdf>
+            <sensor type="irradiancemeter"/></shape>"#
+        )
+    };
+    let corner = [wall(r#"<translate x="1"/>"#), wall(r#"<rotate y="1" angle="90"/><translate z="1"/>"#)].concat();
+    let open = Lab::new(&format!(
+        r#"<scene version="3.0.0"><emitter type="constant"><rgb name="radiance" value="1"/></emitter>{corner}</scene>"#
+    ));
+    for (number, cell) in open.measure::<1>(cached(1904), 400_000, 16, 1 << 12).cells.iter().enumerate() {
+        let half = cell.half_width(0, 0.99).expect("light");
+        assert!(half < 0.02 * PI, "it says something: {half}");
+        family.reading(format!("open corner {number}"), cell, 0, PI);
+    }
     family.decide();
 }
 
