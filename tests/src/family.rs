@@ -106,6 +106,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("spectrograph", 11),
     ("reflector", 4),
     ("tilted squares", 10),
+    ("lamp through a wall", 2),
     ("smooth ball", 3),
     ("cached cube", 8),
     ("cached furnace", 6),

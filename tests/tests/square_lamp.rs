@@ -4,7 +4,7 @@ use std::{f64::consts::PI, time::Instant};
 
 use photonlab_readout::{Direct, Method, Settings};
 use photonlab_reference::square_lamp::RectangularLamp;
-use photonlab_tests::{Lab, seed, settings};
+use photonlab_tests::{Family, Lab, seed, settings};
 
 const FLOOR_REFLECTANCE: f64 = 0.5;
 const HALF_WIDTH: f64 = 1.5;
@@ -71,4 +71,36 @@ fn the_radius_that_a_run_finds_is_as_good_as_the_best() {
     println!("fixed radii {fixed:.4?}, found {found:.4?}");
     assert!(found.iter().all(|&error| error <= 1.1 * best), "{found:?}, the best of fixed radii {best}");
     assert!(fixed[0] > 1.5 * best, "radii matter: {fixed:?}");
+}
+
+/// A lamp that pokes through a wall lights a room by the part that is inside, to the last millimetre: a shadow ray that ends a thousandth
+/// short of the lamp would see it through the wall, and read 0.5 % too much here.
+#[test]
+fn a_lamp_through_a_wall_lights_by_what_is_inside() {
+    let mut family = Family::new("lamp through a wall");
+    let inside = RectangularLamp::new([0.7, 1.0], 1.0, 10.0).expect("in range");
+    let meter = |id: &str, x: f64| {
+        format!(
+            r#"<shape type="rectangle"><transform name="to_world"><scale value="0.1"/><translate x="{x}"/></transform>
+            <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf><sensor type="irradiancemeter" id="{id}"/></shape>"#
+        )
+    };
+    let lab = Lab::new(&format!(
+        r#"<scene version="3.0.0">{}{}
+        <shape type="rectangle"><transform name="to_world"><scale value="0.5"/><rotate x="1" angle="180"/><translate z="1"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf><emitter type="area"><rgb name="radiance" value="10"/></emitter></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="4"/><rotate y="1" angle="-90"/><translate x="0.2"/></transform>
+        <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf></shape></scene>"#,
+        meter("far", -3.0),
+        meter("near", -1.0)
+    ));
+    let outcome = lab.measure::<1>(settings(Method::Path, seed(803)), 0, 16, 1 << 17);
+    for (cell, x) in outcome.cells.iter().zip([-3.0, -1.0]) {
+        // The part inside has its middle at x = -0.15.
+        let truth = inside.mean_irradiance([x + 0.05, -0.1], [x + 0.25, 0.1]);
+        let half = cell.half_width(0, 0.99).expect("light");
+        assert!(half < 0.002 * truth, "it says something: {half} of {truth}");
+        family.reading(format!("meter at {x} m"), cell, 0, truth);
+    }
+    family.decide();
 }
