@@ -115,7 +115,8 @@ impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_,
             all[lane] = if bit != 0 { 1.0 } else { 0.0 };
             near[lane] = if inside[lane] != 0 { 1.0 } else { 0.0 };
         }
-        self.photons += inside.iter().fold(0, |all, bit| all | bit).count_ones() as usize;
+        let inside = inside.iter().fold(0, |all, bit| all | bit).count_ones() as usize;
+        self.photons += inside;
         if self.around.weighs() {
             let mut left = counted;
             while left != 0 {
@@ -127,8 +128,11 @@ impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_,
         }
         let Estimator { kernel, tells_bias, .. } = self.estimator;
         if let Some(corrections) = self.corrections {
-            let narrow = self.corrected(&corrections.narrow, first, self.radius, &shares);
-            self.weighed.add(photons, &product(&near, &narrow));
+            // Most blocks of the wide ball have nothing in the other one.
+            if inside > 0 {
+                let narrow = self.corrected(&corrections.narrow, first, self.radius, &shares);
+                self.weighed.add(photons, &product(&near, &narrow));
+            }
             if tells_bias {
                 let shares = shares.map(|share| share * (1.0 / (CHECK * CHECK)));
                 let wide = self.corrected(&corrections.wide, first, CHECK * self.radius, &shares);
@@ -138,6 +142,9 @@ impl<const C: usize, S: Surroundings<Photon<C>>> VisitBlock for &mut BallSum<'_,
         }
         if tells_bias {
             self.wide.add(photons, &all);
+            if inside == 0 {
+                return;
+            }
         }
         if tells_bias || kernel == Kernel::Disc {
             self.disc.add(photons, &near);

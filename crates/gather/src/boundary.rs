@@ -60,7 +60,9 @@ impl Correction {
         let discs = (radii[0] / radii[1]).powi(2);
         let growth = discs * wide.area / narrow.map_or(1.0, |narrow| narrow.area);
         let narrow = narrow.map_or(Self::NONE, |narrow| of(&narrow));
-        Some(Corrections { wide: of(&wide), narrow, tells: wide.open && growth >= discs.powf(LEAST_GROWTH) })
+        let tells = wide.open && growth >= discs.powf(LEAST_GROWTH);
+        let wide = if estimator.tells_bias { of(&wide) } else { Self::NONE };
+        Some(Corrections { wide, narrow, tells })
     }
 
     /// For a surface of which `inside` is in the ball.
