@@ -18,6 +18,7 @@ mod look;
 mod map_file;
 mod maps;
 mod method;
+mod near;
 mod outcome;
 mod pass;
 mod pilot;

@@ -202,7 +202,7 @@ impl<const C: usize> Session<'_, C> {
         if !self.uses_maps() {
             return Ok(PassMaps::none());
         }
-        let photons = match source {
+        let mut photons = match source {
             Source::Map(file) => file.passes[number as usize].clone(),
             Source::Trace => {
                 let count = schedule.photons(number);
@@ -211,6 +211,9 @@ impl<const C: usize> Session<'_, C> {
             }
         };
         run.book(photons.emitted, &photons.ledger.map(|flux| optics.palette.develop(flux)));
+        if let Some(near) = self.near(run, cells, optics, number, schedule) {
+            near.sift(&mut photons);
+        }
         let maps =
             PassMaps::build(photons, (self.world, self.needs), cells, &self.settings, number as u32, &mut run.radii)?;
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };

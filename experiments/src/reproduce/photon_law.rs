@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use photonlab_measure::{Interval, LogLogFit, Replicates, SlopeError, fit_log_log};
-use photonlab_readout::{Outcome, Wanted};
+use photonlab_readout::{CellResult, Wanted};
 
 use super::{
     context::Findings,
@@ -31,6 +31,8 @@ pub(super) struct Course<'p> {
     pub(super) power: f64,
     /// Points of the picture.
     pub(super) points: usize,
+    /// Runs of so many photons and more serve all replicates at once: their discs are so small that hardly two have a photon in common.
+    pub(super) shared_from: u64,
 }
 
 /// What a point of a picture shows, and the variance with which that is known.
@@ -53,53 +55,85 @@ impl Course<'_> {
         self.radius * (photons / MILLION).powf(-self.power)
     }
 
-    /// Reads a picture with every seed. Each has points, photons and truth of its own, so that replicates are independent in all.
+    /// Reads a picture with every seed. Each has points and truth of its own, and photons too unless they are very many, so that replicates
+    /// are independent.
     pub(super) fn read<const C: usize>(
         &self,
         picture: &Picture,
         truth: impl Fn(&[Spot], u64) -> anyhow::Result<Vec<Known<C>>>,
         found: &mut Findings,
     ) -> anyhow::Result<Trend> {
-        let mut squares = Vec::new();
-        for seed in self.seeds.clone() {
-            let spots = picture.spots(self.region, self.points, seed);
-            let truth = truth(&spots, seed)?;
-            let cells: Vec<_> = spots.iter().map(|spot| spot.cell.clone()).collect();
-            let mut of_seed = Vec::new();
-            for &photons in self.photons {
-                let radius = self.radius(photons as f64);
-                let passes = photons.div_ceil(PASS);
-                // One reading of each point per pass, for it is the same point every time.
-                let wanted =
-                    Wanted { photons: Some(photons), passes: Some(passes), samples: Some(passes), ..Wanted::default() };
-                let clock = CpuClock::start();
-                let settings = Strategy::RADIUS_DIRECT_VIEW.within(radius).settings(seed);
-                let outcome = picture.lab.read::<C>(&cells, settings, &wanted, 0.99)?;
-                let seconds = clock.seconds();
-                let [square, of_truth] = mean_squares(&spots, &truth, &outcome);
-                of_seed.push(square);
-                found.rows.push(row([
-                    ("scene", picture.id.into()),
-                    ("part", self.region.title().into()),
-                    ("photons", photons.into()),
-                    ("passes", passes.into()),
-                    ("radius", radius.into()),
-                    ("seed", seed.into()),
-                    ("squared_error", square.into()),
-                    ("squared_error_of_truth", of_truth.into()),
-                    ("cpu_seconds", microseconds(seconds).into()),
-                ]));
+        let pictures: Vec<Sampled<C>> = self
+            .seeds
+            .clone()
+            .map(|seed| {
+                let spots = picture.spots(self.region, self.points, seed);
+                Ok(Sampled { seed, truth: truth(&spots, seed)?, spots })
+            })
+            .collect::<anyhow::Result<_>>()?;
+        let mut squares = vec![Vec::new(); pictures.len()];
+        for &photons in self.photons {
+            let at_once = if photons >= self.shared_from { pictures.len() } else { 1 };
+            for (run, sampled) in pictures.chunks(at_once).enumerate() {
+                let of_each = self.read_once(picture, photons, sampled, found)?;
+                squares[run * at_once..].iter_mut().zip(of_each).for_each(|(squares, square)| squares.push(square));
             }
-            squares.push(of_seed);
         }
         Ok(Trend { region: self.region, photons: self.photons.iter().map(|&n| n as f64).collect(), squares })
     }
+
+    /// The mean square errors of some replicates that share their photons.
+    fn read_once<const C: usize>(
+        &self,
+        picture: &Picture,
+        photons: u64,
+        sampled: &[Sampled<C>],
+        found: &mut Findings,
+    ) -> anyhow::Result<Vec<f64>> {
+        let radius = self.radius(photons as f64);
+        let passes = photons.div_ceil(PASS);
+        // One reading of each point per pass, for it is the same point every time.
+        let wanted =
+            Wanted { photons: Some(photons), passes: Some(passes), samples: Some(passes), ..Wanted::default() };
+        let cells: Vec<_> = sampled.iter().flat_map(|of| of.spots.iter().map(|spot| spot.cell.clone())).collect();
+        let clock = CpuClock::start();
+        let settings = Strategy::RADIUS_DIRECT_VIEW.within(radius).settings(sampled[0].seed);
+        let outcome = picture.lab.read::<C>(&cells, settings, &wanted, 0.99)?;
+        let seconds = clock.seconds();
+        let mut cells = &outcome.cells[..];
+        let mut squares = Vec::new();
+        for of in sampled {
+            let [square, of_truth] = mean_squares(&of.spots, &of.truth, cells);
+            cells = &cells[of.spots.len()..];
+            squares.push(square);
+            found.rows.push(row([
+                ("scene", picture.id.into()),
+                ("part", self.region.title().into()),
+                ("photons", photons.into()),
+                ("passes", passes.into()),
+                ("radius", radius.into()),
+                ("seed", of.seed.into()),
+                ("seed_of_photons", sampled[0].seed.into()),
+                ("squared_error", square.into()),
+                ("squared_error_of_truth", of_truth.into()),
+                ("cpu_seconds", microseconds(seconds / sampled.len() as f64).into()),
+            ]));
+        }
+        Ok(squares)
+    }
+}
+
+/// A replicate's points.
+struct Sampled<const C: usize> {
+    seed: u64,
+    spots: Vec<Spot>,
+    truth: Vec<Known<C>>,
 }
 
 /// Mean square error of the readings, that of the truth taken off, and the latter, relative to the truth's squared mean.
-fn mean_squares<const C: usize>(spots: &[Spot], truth: &[Known<C>], outcome: &Outcome<C>) -> [f64; 2] {
+fn mean_squares<const C: usize>(spots: &[Spot], truth: &[Known<C>], cells: &[CellResult<C>]) -> [f64; 2] {
     let [mut weight, mut mean, mut square, mut of_truth] = [0.0; 4];
-    for ((spot, known), read) in spots.iter().zip(truth).zip(&outcome.cells) {
+    for ((spot, known), read) in spots.iter().zip(truth).zip(cells) {
         for c in 0..C {
             weight += spot.weight;
             mean += spot.weight * known.value[c];

@@ -42,6 +42,8 @@ struct Parameters {
     smooth_photons: Vec<u64>,
     /// Points of a picture.
     points: usize,
+    /// Photons from which on a run serves all replicates.
+    shared_from: u64,
     /// Paths per point of the control.
     control_points: u64,
     /// The relative RMS error that is asked for.
@@ -71,7 +73,7 @@ impl Parameters {
 
     /// The whole picture, and what is far from edges.
     fn courses(&self, radii: Radii) -> [Course<'_>; 2] {
-        let points = self.points;
+        let (points, shared_from) = (self.points, self.shared_from);
         [
             Course {
                 region: Region::Whole,
@@ -80,6 +82,7 @@ impl Parameters {
                 radius: radii.radius,
                 power: EDGE_POWER,
                 points,
+                shared_from,
             },
             Course {
                 region: Region::FromEdges(radii.from_edges),
@@ -88,6 +91,7 @@ impl Parameters {
                 radius: radii.smooth_radius,
                 power: SMOOTH_POWER,
                 points,
+                shared_from,
             },
         ]
     }
