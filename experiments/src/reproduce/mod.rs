@@ -25,6 +25,7 @@ mod faces;
 mod far;
 mod field;
 mod furnace;
+mod gathered;
 mod growth;
 mod lab;
 mod lamp_caustic;

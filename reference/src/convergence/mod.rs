@@ -7,6 +7,7 @@
 //! squared bias goes as `r` and the least error as `N^(-1/3)` ([`half_lit_torus`]). (Catalogue entries H1, H2, H3 and H5.)
 
 pub mod cosine_torus;
+pub mod gathered_sphere;
 pub mod half_lit_torus;
 mod least;
 pub mod progressive;

@@ -1,4 +1,5 @@
-//! `convergence`: how fast squared errors fall with photons, at a smooth point, over an image with an edge, and pass by pass.
+//! `convergence`: how fast squared errors fall with photons, at a smooth point, over an image with an edge, and pass by pass, and with
+//! gather rays.
 
 use photonlab_gather::{Bandwidth, Scratch};
 use photonlab_measure::{Axis, FigureData, Interval, Record, Series, Verdict};
@@ -9,6 +10,7 @@ use serde::Deserialize;
 use crate::reproduce::{
     context::{Context, Findings},
     decay::{Decay, Step},
+    gathered,
     progressive::{Asked, Progressive, Sequence},
     table::Table,
     torus::{read_crest, read_row},
@@ -36,6 +38,7 @@ struct Parameters {
     /// Ascending.
     passes: Vec<u32>,
     sequences: u64,
+    gathered: gathered::Parameters,
     /// A ratio to a law known worse than this (half-width) says nothing.
     precision: f64,
     /// The same for a slope.
@@ -47,13 +50,16 @@ struct Measured {
     /// Over photons.
     decays: [Decay; 4],
     progressive: [Progressive; 2],
+    /// Over rays: where they rule the error, and where photons do.
+    gathered: [Decay; 2],
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
     let measured = Measured::take(&p)?;
     let of_photons = measured.decays.len() * (p.photons.len() + 1);
-    let mut table = Table::new(of_photons + measured.progressive.len() * (OF_PASSES * p.passes.len() + 1));
+    let of_rays = measured.gathered.iter().map(|decay| decay.steps.len()).sum::<usize>() + 1;
+    let mut table = Table::new(of_photons + measured.progressive.len() * (OF_PASSES * p.passes.len() + 1) + of_rays);
     let mut found = Findings { seeds: vec![p.seed], ..Findings::default() };
     for decay in &measured.decays {
         decay.judge_errors(&mut table, "photons", p.precision);
@@ -65,7 +71,16 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         progressive.decay.judge_slope(&mut table, p.slope_precision);
         found.rows.extend(progressive.rows());
     }
-    found.figures = vec![photons_figure(&p, &measured, &table), passes_figure(&p, &measured, &table)];
+    for decay in &measured.gathered {
+        decay.judge_errors(&mut table, "rays", p.precision);
+        found.rows.extend(decay.rows());
+    }
+    measured.gathered[0].judge_slope(&mut table, p.slope_precision);
+    found.figures = vec![
+        photons_figure(&p, &measured, &table),
+        passes_figure(&p, &measured, &table),
+        rays_figure(&p, &measured, &table),
+    ];
     let confidence = table.confidence;
     let (comparisons, verdict, reason) = table.conclude(|| conclude(&p, &measured, confidence));
     found.comparisons = comparisons;
@@ -111,6 +126,7 @@ impl Measured {
         Ok(Self {
             decays: [fixed_radius(p)?, nearest(p)?, constant_count(p)?, image(p)?],
             progressive: [progressive(published)?, progressive(ours)?],
+            gathered: gathered::measure(&p.gathered, p.seed)?,
         })
     }
 }
@@ -168,7 +184,7 @@ fn image(p: &Parameters) -> anyhow::Result<Decay> {
 
 fn conclude(p: &Parameters, measured: &Measured, confidence: f64) -> (Verdict, String) {
     let of_passes = measured.progressive.iter().map(|progressive| &progressive.decay);
-    let slopes = measured.decays.iter().chain(of_passes).map(|decay| {
+    let slopes = measured.decays.iter().chain(of_passes).chain(&measured.gathered[..1]).map(|decay| {
         format!(
             "{} {} where the law has {:.3} ({:.3} at its end, {:.3} in the limit)",
             decay.name,
@@ -180,15 +196,21 @@ fn conclude(p: &Parameters, measured: &Measured, confidence: f64) -> (Verdict, S
     });
     let reason = format!(
         "every mean squared error follows its law. Log-log slopes, {} to {} photons or {} to {} passes: {}. With {} nearest photons however \
-         many there are, the error stops at p^2 / k",
+         many there are, the error stops at p^2 / k; with rays of final gather at the plateau that the photons leave it, where it is {} of its law",
         p.photons[0],
         p.photons[p.photons.len() - 1],
         p.passes[0],
         p.passes[p.passes.len() - 1],
         slopes.collect::<Vec<_>>().join("; "),
-        p.constant_k
+        p.constant_k,
+        ratio(measured.gathered[1].steps.last(), confidence)
     );
     (Verdict::Holds, reason)
+}
+
+fn ratio(step: Option<&Step>, confidence: f64) -> String {
+    let of_law = step.and_then(|step| Some(step.squared.interval(confidence)?.scaled(1.0 / step.law)));
+    text(of_law)
 }
 
 fn text(slope: Option<Interval>) -> String {
@@ -227,6 +249,25 @@ fn passes_figure(p: &Parameters, measured: &Measured, table: &Table) -> FigureDa
         x: Axis::log("passes"),
         y: Axis::log("mean squared error over the mean irradiance squared"),
         series: all_series(measured.progressive.iter().map(|progressive| &progressive.decay), table),
+    }
+}
+
+fn rays_figure(p: &Parameters, measured: &Measured, table: &Table) -> FigureData {
+    FigureData {
+        id: "rays".into(),
+        title: "Mean squared error of final gather against its rays".into(),
+        caption: format!(
+            "Integrating sphere of reflectance {}, {} independent photons, gathered within {} m: rays rule the error first, and photons at last. \
+             {} replicates per mark; {}.",
+            p.gathered.reflectance,
+            p.gathered.photons,
+            p.gathered.radius,
+            p.gathered.replicates,
+            table.intervals()
+        ),
+        x: Axis::log("gather rays"),
+        y: Axis::log("mean squared error over the direct irradiance squared"),
+        series: all_series(measured.gathered.iter(), table),
     }
 }
 
