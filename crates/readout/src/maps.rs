@@ -108,7 +108,7 @@ impl<const C: usize> PassMaps<C> {
 
     /// Builds what the method reads; chooses radii in the first pass and shrinks them in later ones.
     pub(crate) fn build(
-        photons: PassPhotons<C>,
+        mut photons: PassPhotons<C>,
         (world, needs): (&World, &Needs),
         cells: &[Cell],
         settings: &Settings,
@@ -119,11 +119,6 @@ impl<const C: usize> PassMaps<C> {
         let final_gather = matches!(settings.method, Method::FinalGather { .. });
         let caustic = (final_gather && needs.caustic)
             .then(|| select(&photons, |class| class == PathClass::Caustic))
-            .map(|(positions, photons)| PhotonMap::build(positions, photons, MAP_RULE))
-            .transpose()?;
-        let wants_surface = !final_gather || needs.indirect;
-        let surface = wants_surface
-            .then(|| select(&photons, |class| classes.has(class)))
             .map(|(positions, photons)| PhotonMap::build(positions, photons, MAP_RULE))
             .transpose()?;
         let fixed = match settings.method {
@@ -140,13 +135,18 @@ impl<const C: usize> PassMaps<C> {
             (None, None) => 0.0,
             (None, Some(map)) => *first.get_or_insert_with(|| first_radius(map, count, world)) * shrink,
         };
-        let surface_radius = radius(&surface, &mut radii.surface, count);
         let caustic_radius = radius(&caustic, &mut radii.caustic, CAUSTIC_COUNT);
         let in_cells = if caustic.is_some() {
             CausticCells::count(world, cells, &photons, caustic_radius, settings.limits.max_segments)
         } else {
             CausticCells::none()
         };
+        let wants_surface = !final_gather || needs.indirect;
+        let surface = wants_surface
+            .then(|| take(&mut photons, |class| classes.has(class)))
+            .map(|(positions, photons)| PhotonMap::build(positions, photons, MAP_RULE))
+            .transpose()?;
+        let surface_radius = radius(&surface, &mut radii.surface, count);
         let of_volume = |wanted: bool, keep: &dyn Fn(PathClass) -> bool| {
             wanted
                 .then(|| select_in_volume(&photons.volume, keep))
@@ -205,6 +205,17 @@ fn select<const C: usize>(
 ) -> (Vec<[f32; 3]>, Vec<Photon<C>>) {
     let chosen = pass.positions.iter().zip(&pass.photons).filter(|(_, photon)| wanted(photon.class));
     chosen.map(|(position, photon)| (*position, *photon)).unzip()
+}
+
+/// The same of a pass whose photons on surfaces nobody asks for again.
+fn take<const C: usize>(
+    pass: &mut PassPhotons<C>,
+    wanted: impl Fn(PathClass) -> bool,
+) -> (Vec<[f32; 3]>, Vec<Photon<C>>) {
+    if !pass.photons.iter().all(|photon| wanted(photon.class)) {
+        return select(pass, wanted);
+    }
+    (std::mem::take(&mut pass.positions), std::mem::take(&mut pass.photons))
 }
 
 fn select_in_volume<const C: usize>(

@@ -13,7 +13,7 @@ use crate::{
 };
 
 /// A pass is sifted if it emits at least so many photons for each point that it reads: fewer points cost less than what they spare a map.
-const PHOTONS_PER_POINT: u64 = 8;
+const PHOTONS_PER_POINT: u64 = 64;
 /// Bits of the table for each voxel near a point, so that few others share one.
 const BITS_PER_VOXEL: usize = 64;
 /// Voxels are so much wider than what the readings reach, for rounding.

@@ -29,6 +29,7 @@ mod specular;
 mod spherical_rectangle;
 mod stream;
 mod tabulated;
+mod turn;
 mod volume;
 pub mod warp;
 mod wavelength_plan;

@@ -8,6 +8,8 @@ use glam::DVec3;
 use photonlab_scene::{Microfacets, Roughness};
 use statrs::function::erf::{erf, erf_inv};
 
+use crate::turn;
+
 /// Isotropic microfacets, Smith's masking.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facets {
@@ -76,7 +78,7 @@ fn visible_on_hemisphere(w: DVec3, xi: [f64; 2]) -> DVec3 {
     let tangent = if across > 0.0 { DVec3::new(-w.y, w.x, 0.0) / across.sqrt() } else { DVec3::X };
     let bitangent = w.cross(tangent);
     let radius = xi[0].sqrt();
-    let (sin, cos) = (2.0 * PI * xi[1]).sin_cos();
+    let (sin, cos) = turn::sin_cos(xi[1]);
     let t1 = radius * cos;
     let share = 0.5 * (1.0 + w.z);
     let t2 = (1.0 - share) * (1.0 - t1 * t1).max(0.0).sqrt() + share * radius * sin;

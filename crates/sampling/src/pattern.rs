@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec3;
 use photonlab_scene::Pattern;
 
-use crate::{Stream, tabulated, warp};
+use crate::{Stream, tabulated, turn, warp};
 
 /// Intensity in a direction over the lamp's stated intensity.
 pub(crate) fn relative(pattern: &Pattern, direction: DVec3) -> f64 {
@@ -57,7 +57,7 @@ pub(crate) fn draw(pattern: &Pattern, stream: &mut Stream) -> DVec3 {
             let [xi, turn] = stream.next2();
             let cos = xi.powf(1.0 / (exponent + 1.0));
             let sin = (1.0 - cos * cos).max(0.0).sqrt();
-            let (s, c) = (TAU * turn).sin_cos();
+            let (s, c) = turn::sin_cos(turn);
             warp::Frame::around(*axis).world(DVec3::new(sin * c, sin * s, cos))
         }
         Pattern::Spot { axis, beam, cutoff } => loop {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use photonlab_scene::Phase;
 
-use crate::{Stream, warp};
+use crate::{Stream, turn, warp};
 
 /// Density per solid angle of scattering by an angle of this cosine, which is also the value of the phase function.
 pub fn phase_pdf_solid_angle(phase: Phase, cosine: f64) -> f64 {
@@ -31,7 +31,7 @@ pub fn scatter(phase: Phase, direction: DVec3, stream: &mut Stream) -> DVec3 {
     };
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     let (x, y) = direction.any_orthonormal_pair();
-    let (sin, cos) = (2.0 * PI * turn).sin_cos();
+    let (sin, cos) = turn::sin_cos(turn);
     (cosine * direction + sine * (cos * x + sin * y)).normalize()
 }
 

@@ -4,6 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 
+use crate::turn;
+
 /// A right-handed orthonormal frame, z along a unit normal.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
@@ -32,7 +34,7 @@ impl Frame {
 /// Unit square to the hemisphere around a unit normal, density cos / pi per solid angle.
 pub fn square_to_cosine_hemisphere(xi: [f64; 2], normal: DVec3) -> DVec3 {
     let radius = xi[0].sqrt();
-    let (sin, cos) = (TAU * xi[1]).sin_cos();
+    let (sin, cos) = turn::sin_cos(xi[1]);
     let (tangent, bitangent) = normal.any_orthonormal_pair();
     radius * cos * tangent + radius * sin * bitangent + (1.0 - xi[0]).max(0.0).sqrt() * normal
 }
@@ -46,13 +48,13 @@ pub fn cosine_hemisphere_pdf_solid_angle(cosine: f64) -> f64 {
 pub fn square_to_uniform_sphere(xi: [f64; 2]) -> DVec3 {
     let z = 1.0 - 2.0 * xi[0];
     let radius = (1.0 - z * z).max(0.0).sqrt();
-    let (sin, cos) = (TAU * xi[1]).sin_cos();
+    let (sin, cos) = turn::sin_cos(xi[1]);
     DVec3::new(radius * cos, radius * sin, z)
 }
 
 /// Unit square to the unit disc across a unit vector, density 1 / pi per area.
 pub(crate) fn square_to_uniform_disc(xi: [f64; 2], across: DVec3) -> DVec3 {
-    let (sin, cos) = (TAU * xi[1]).sin_cos();
+    let (sin, cos) = turn::sin_cos(xi[1]);
     let (tangent, bitangent) = across.any_orthonormal_pair();
     xi[0].sqrt() * (cos * tangent + sin * bitangent)
 }
@@ -68,7 +70,7 @@ pub(crate) fn cone_of_sphere(radius: f64, offset: DVec3) -> f64 {
 pub fn square_to_uniform_cone(xi: [f64; 2], axis: DVec3, one_minus_cos: f64) -> DVec3 {
     let drop = xi[0] * one_minus_cos;
     let radius = (drop * (2.0 - drop)).max(0.0).sqrt();
-    let (sin, cos) = (TAU * xi[1]).sin_cos();
+    let (sin, cos) = turn::sin_cos(xi[1]);
     let (tangent, bitangent) = axis.any_orthonormal_pair();
     radius * cos * tangent + radius * sin * bitangent + (1.0 - drop) * axis
 }

@@ -81,16 +81,23 @@ pub fn trace<const C: usize>(
 }
 
 fn follow_all<const C: usize>(Flight { world, optics, plan, job }: Flight<'_, C>) -> Result<Traced<C>, TraceError> {
-    let parts = in_chunks(plan, |numbers| {
+    let parts: Vec<Traced<C>> = in_chunks(plan, |numbers| {
         let mut part = Traced::empty(world);
         for number in numbers {
             path::follow(world, optics, plan, job, number, &mut part, &mut NoCounter)?;
         }
         Ok(part)
-    });
+    })
+    .into_iter()
+    .collect::<Result<_, TraceError>>()?;
     let mut whole = Traced::empty(world);
+    // Exactly what is needed: the largest arrays of a run would grow by doubling.
+    let stored = |of: fn(&Traced<C>) -> usize| parts.iter().map(of).sum();
+    whole.positions.reserve_exact(stored(|part| part.positions.len()));
+    whole.photons.reserve_exact(stored(|part| part.photons.len()));
+    whole.volume.positions.reserve_exact(stored(|part| part.volume.positions.len()));
+    whole.volume.photons.reserve_exact(stored(|part| part.volume.photons.len()));
     for part in parts {
-        let part = part?;
         whole.positions.extend(part.positions);
         whole.photons.extend(part.photons);
         whole.volume.positions.extend(part.volume.positions);
