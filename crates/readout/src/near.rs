@@ -54,9 +54,10 @@ impl Near {
 
     /// Which bit stands for a voxel (Teschner et al., "Optimized spatial hashing", 2003).
     fn bit(&self, voxel: [i32; 3]) -> usize {
-        let hashed = voxel.iter().zip([73_856_093u32, 19_349_663, 83_492_791]).fold(0, |hashed: u32, (&x, prime)| {
-            hashed ^ (x as u32).wrapping_mul(prime)
-        });
+        let hashed = voxel
+            .iter()
+            .zip([73_856_093u32, 19_349_663, 83_492_791])
+            .fold(0, |hashed: u32, (&x, prime)| hashed ^ (x as u32).wrapping_mul(prime));
         // The best bits of a product are its upper ones.
         let spread = u64::from(hashed).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 20;
         spread as usize & (64 * self.bits.len() - 1)
