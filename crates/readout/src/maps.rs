@@ -30,6 +30,11 @@ const PROBES: usize = 255;
 /// both the bias and the noise of the mean go to zero.
 pub const SHRINK: f64 = 1.0 / 6.0;
 
+/// An automatic radius over that of the first pass, which is number 0.
+pub(crate) fn shrinkage(pass: u32) -> f64 {
+    f64::from(pass + 1).powf(-SHRINK)
+}
+
 /// What one pass's photons left, before any map is built.
 #[derive(Clone, Debug)]
 pub struct PassPhotons<const C: usize> {
@@ -129,7 +134,7 @@ impl<const C: usize> PassMaps<C> {
             Method::FinalGather { .. } => FINAL_GATHER_COUNT,
             _ => DIRECT_VIEW_COUNT,
         };
-        let shrink = f64::from(pass + 1).powf(-SHRINK);
+        let shrink = shrinkage(pass);
         let radius = |map: &Option<PhotonMap<C>>, first: &mut Option<f64>, count: usize| match (fixed, map) {
             (Some(radius), _) => radius,
             (None, None) => 0.0,

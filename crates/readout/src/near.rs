@@ -8,7 +8,7 @@ use crate::{
     Cell, Method, PassPhotons, Schedule, Session,
     caustic_cells::CausticCells,
     look::Look,
-    maps::{PassMaps, SHRINK},
+    maps::{PassMaps, shrinkage},
     run::Run,
 };
 
@@ -22,7 +22,7 @@ const MARGIN: f64 = 1.001;
 /// The voxels near the points that a pass reads. It may take a far place for a near one, never the reverse.
 pub(crate) struct Near {
     /// Voxels per metre.
-    scale: f32,
+    scale: f64,
     bits: Vec<u64>,
 }
 
@@ -30,7 +30,7 @@ impl Near {
     /// All that is within `reach` metres of some place.
     fn new(places: &[[f32; 3]], reach: f64) -> Self {
         let bits = (places.len() * 27 * BITS_PER_VOXEL).next_power_of_two().max(64);
-        let mut near = Self { scale: (1.0 / (MARGIN * reach)) as f32, bits: vec![0; bits / 64] };
+        let mut near = Self { scale: 1.0 / (MARGIN * reach), bits: vec![0; bits / 64] };
         for &place in places {
             let voxel = near.voxel(place);
             for step in 0..27 {
@@ -49,7 +49,7 @@ impl Near {
     }
 
     fn voxel(&self, place: [f32; 3]) -> [i32; 3] {
-        place.map(|x| (x * self.scale).floor() as i32)
+        place.map(|x| (f64::from(x) * self.scale).floor() as i32)
     }
 
     /// Which bit stands for a voxel (Teschner et al., "Optimized spatial hashing", 2003).
@@ -81,7 +81,7 @@ impl<const C: usize> Session<'_, C> {
         number: u64,
         schedule: &Schedule,
     ) -> Option<Near> {
-        let shrunken = || Some(run.radii.surface? * f64::from(number as u32 + 1).powf(-SHRINK));
+        let shrunken = || Some(run.radii.surface? * shrinkage(number as u32));
         let radius = match self.settings.method {
             Method::Radius { radius } => radius.or_else(shrunken),
             Method::Adaptive => shrunken(),

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use photonlab_scene::Ray;
 
-use crate::Stream;
+use crate::{Stream, turn};
 
 /// A ray that hits a lamp passes it at this share of the distance to it.
 const MISS: f64 = 1e-9;
@@ -67,7 +67,7 @@ impl AroundPoint {
         let [angle, turn] = stream.next2();
         let (x, y) = self.axis.any_orthonormal_pair();
         let (sine, cosine) = (PI * angle).sin_cos();
-        let (sin, cos) = (2.0 * PI * turn).sin_cos();
+        let (sin, cos) = turn::sin_cos(turn);
         (cosine * self.axis + sine * (cos * x + sin * y)).normalize()
     }
 

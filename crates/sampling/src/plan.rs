@@ -50,8 +50,8 @@ impl Sought {
     fn aimed(self) -> f64 {
         match self {
             Sought::AsEmitted => 0.0,
-            // What these find is narrow and bright and rules the error of most pictures that show it: there 0.6 took 0.7 of the time that
-            // 1/3 takes to an error, and 1.2 of it in a room where it rules nothing.
+            // What these find is narrow and bright and rules the error of most pictures that show it: a ball lens under a lamp took half of
+            // the time to an error that it took with 1/3, and a room in which it rules nothing 1.2 times as long.
             Sought::All => 0.6,
             Sought::Caustics => 15.0 / 16.0,
         }
