@@ -67,7 +67,8 @@ pub(crate) struct Options {
     /// disc with photons near the plane alone (flattened), or the surface that the point sees (visible; slow) [default: clipped].
     #[arg(long, value_enum)]
     pub(crate) area: Option<AreaName>,
-    /// Final-gather rays per point [default: 1]; with --cache, per cached place and pass [default: 64].
+    /// Final-gather rays per point [default: 1]; with --cache, per cached place and pass [default: 64], and 1 per point
+    /// that no cached place stands for, as on coats.
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number::small_count)]
     pub(crate) gather_rays: Option<u32>,
     /// Final gather looks around at few places and tells of all between (irradiance cache).

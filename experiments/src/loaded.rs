@@ -113,6 +113,9 @@ pub(crate) fn wanted<const C: usize>(options: &Options, map: Option<&MapFile<C>>
 /// The schedule of a session, with its default count named on standard error.
 pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());
+    if session.settings.cache && !session.caches() {
+        say!("note: nothing is reflected here that --cache could tell of; it and --gather-rays change nothing");
+    }
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()
         && wanted.samples.is_none()

@@ -111,6 +111,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cached cube", 8),
     ("cached furnace", 6),
     ("cached room", 8),
+    ("cached floor with a wall", 6),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

@@ -117,3 +117,34 @@ fn steps_shelves_and_thin_walls_do_not_mix() {
     }
     family.decide();
 }
+
+/// A wall that stands on a floor: what the bright side's sites say is not for the dark side, though both are one plane.
+#[test]
+fn a_wall_on_a_floor_parts_its_light() {
+    let mut family = Family::new("cached floor with a wall");
+    let lab = Lab::new(
+        r#"<scene version="3.0.0"><emitter type="point"><point name="position" x="-1" y="0" z="0.7"/></emitter>
+        <bsdf type="diffuse" id="white"><rgb name="reflectance" value="0.5"/></bsdf>
+        <shape type="cube"><transform name="to_world"><scale x="2" y="2" z="1.3"/><translate z="1.3"/></transform>
+        <boolean name="flip_normals" value="true"/><ref id="white"/></shape>
+        <shape type="rectangle"><transform name="to_world"><scale x="0.9" y="1.8"/><rotate y="1" angle="90"/>
+        <translate z="0.9"/></transform><bsdf type="twosided"><ref id="white"/></bsdf></shape>
+        <shape type="rectangle"><transform name="to_world"><scale x="0.8" y="0.5"/><translate z="0.001"/></transform>
+        <ref id="white"/><sensor type="irradiancemeter"><film type="hdrfilm"><integer name="width" value="16"/>
+        <integer name="height" value="1"/><rfilter type="box"/></film></sensor></shape></scene>"#,
+    );
+    let finer = Settings { gather_rays: 128, ..cached(1905) };
+    let found = lab.measure::<1>(finer, 3_200_000, 16, 1 << 9);
+    let control = lab.measure::<1>(settings(Method::Path, seed(1906)), 0, 16, 1 << 16);
+    for number in [0, 6, 7, 8, 9, 15] {
+        let [told, by_paths] = [&found, &control].map(|outcome| &outcome.cells[number]);
+        let truth = by_paths.value[0].mean().expect("light");
+        let noise = by_paths.value[0].std_error().expect("passes");
+        let half = told.half_width(0, 0.99).expect("light");
+        println!("{number}: {:?} +- {half} of {truth} +- {noise}", told.value[0].mean());
+        assert!(noise < 0.35 * half, "{number}: the control is finer: {noise} {half}");
+        assert!(half < 0.2 * truth, "{number}: it says something: {half} of {truth}");
+        family.reading(number, told, 0, truth);
+    }
+    family.decide();
+}

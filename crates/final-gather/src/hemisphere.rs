@@ -58,6 +58,14 @@ impl Strata {
             rise * (1.0 / to.distance.min(from.distance))
         };
         let sine = |row: usize| (row as f64 / rows as f64).sqrt();
+        // The integral of the tangent over the squared sine, up to a row's border; and what directions over a column's width have of
+        // that in its middle, on average.
+        let below = |row: usize| {
+            let sine = sine(row);
+            sine.asin() - sine * (1.0 - sine * sine).max(0.0).sqrt()
+        };
+        let half_width = PI / columns as f64;
+        let towards_middle = half_width.sin() / half_width;
         let mut gradients = Gradients { turn: [Colour::ZERO; 3], shift: [Colour::ZERO; 3] };
         for column in 0..columns {
             let middle = TAU * (column as f64 + 0.5) / columns as f64;
@@ -73,10 +81,9 @@ impl Strata {
                     outward += step(of(row - 1, column), here) * weight;
                 }
                 sideways += step(of(row, before), here) * (sine(row + 1) - sine(row));
-                let middle = ((row as f64 + 0.5) / rows as f64).sqrt();
-                let tangent = middle / (1.0 - middle * middle).sqrt();
-                tilt += here.irradiance * (tangent / (rows * columns) as f64);
+                tilt += here.irradiance * ((below(row + 1) - below(row)) / columns as f64);
             }
+            let tilt = tilt * towards_middle;
             for axis in 0..3 {
                 gradients.shift[axis] += outward * along[axis] + sideways * edge[axis];
                 gradients.turn[axis] += tilt * across[axis];
@@ -130,6 +137,29 @@ mod tests {
                 (found.turn[axis].0[0] - by_turn).abs() < 0.01 * by_turn.abs() + 0.003,
                 "{axis} {by_turn} {found:?}"
             );
+        }
+    }
+
+    /// Half of the sky is bright: a turn towards it by an angle brings as much of it as its sine, however few the strata are.
+    #[test]
+    fn the_turn_of_few_rays_is_right_on_average() {
+        for rays in [8, 16, 64, 256] {
+            let (strata, frame) = (Strata::new(rays), Frame::around(DVec3::Z));
+            let parts = 64;
+            let mut turn = 0.0;
+            for part in 0..parts * parts {
+                let xi = [part / parts, part % parts].map(|of| (f64::from(of) + 0.5) / f64::from(parts));
+                let found: Vec<Found<1>> = (0..rays)
+                    .map(|number| {
+                        let bright = strata.direction(number, xi, &frame).x > 0.0;
+                        Found { irradiance: Colour([f64::from(u8::from(bright))]), distance: 1.0 }
+                    })
+                    .collect();
+                turn += strata.gradients(&found, &frame).turn[1].0[0] / f64::from(parts * parts);
+            }
+            // The bright half's share is (1 + sin(angle)) / 2.
+            let off = turn / 0.5 - 1.0;
+            assert!(off.abs() < 0.11 && (rays < 64 || off.abs() < 0.02), "{rays} rays: {turn}");
         }
     }
 

@@ -13,6 +13,7 @@ mod hemisphere;
 mod in_scattering;
 mod light;
 mod look;
+mod parting;
 mod place;
 mod record;
 mod segment;

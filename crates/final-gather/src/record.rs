@@ -3,16 +3,18 @@
 use glam::DVec3;
 use photonlab_gather::Scratch;
 use photonlab_sampling::{Sight, Stream, warp::Frame};
-use photonlab_scene::SurfacePoint;
+use photonlab_scene::{SurfacePoint, World};
 
 use crate::{
     Gatherer, Light,
+    cache::WIDEST,
     hemisphere::{Found, Gradients, Strata},
+    parting::is_parted,
 };
 
 /// Of a place's neighbours only those stand on its surface, as far as a cache is concerned, that lie so near the plane between both
 /// normals, over their distance: no step, no parallel shelf. On planes and spheres it is zero.
-const OFF_PLANE: f64 = 0.02;
+pub(crate) const OFF_PLANE: f64 = 0.02;
 
 /// A place whose reflected light stands for that around it.
 #[derive(Clone, Copy, Debug)]
@@ -35,6 +37,8 @@ pub struct Site<const C: usize> {
     pub reach: f64,
     /// The share of the gradients that is believed: less than 1 where the reach was made longer.
     pub(crate) trust: f64,
+    /// True if something stands between parts of the surface around: only what sees the site is told of then.
+    pub(crate) parted: bool,
 }
 
 /// What the rays of one pass found at a site.
@@ -50,8 +54,13 @@ impl<const C: usize> Spot<C> {
         self.sight.is_plain()
     }
 
-    fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.sight.normals.geometric
+    }
+
+    /// The point and the normal of its side.
+    pub(crate) fn place(&self) -> (DVec3, DVec3) {
+        (self.at.position, self.normal())
     }
 }
 
@@ -75,7 +84,8 @@ impl<const C: usize> Site<C> {
             .sum();
         let seen = f64::from(rays) / nearness;
         let reach = seen.min(most).max(least);
-        Self { spot, reach, trust: (seen / reach).min(1.0) }
+        let parted = is_parted(gatherer.world, &spot, reach * WIDEST);
+        Self { spot, reach, trust: (seen / reach).min(1.0), parted }
     }
 
     /// No longer than a length.
@@ -93,6 +103,13 @@ impl<const C: usize> Site<C> {
         let near = difference < bound && offset.dot(mean).abs() <= OFF_PLANE * distance * mean.length();
         let alike = self.spot.used == spot.used && self.spot.sight.medium == spot.sight.medium;
         (near && alike).then_some(difference)
+    }
+
+    /// The same where the site stands for the spot: nothing stands between them.
+    pub fn stands_for(&self, spot: &Spot<C>, bound: f64, world: &World) -> Option<f64> {
+        let difference = self.difference(spot, bound)?;
+        let between = |from: &Spot<C>, to: &Spot<C>| !world.see_each_other(from.place(), to.place());
+        (!self.parted || !between(&self.spot, spot)).then_some(difference)
     }
 
     /// Looks around with as many rays.
@@ -142,7 +159,7 @@ mod tests {
 
     #[test]
     fn a_site_stands_for_its_own_surface_alone() {
-        let site = Site { spot: spot(DVec3::ZERO, DVec3::Z, None), reach: 2.0, trust: 1.0 };
+        let site = Site { spot: spot(DVec3::ZERO, DVec3::Z, None), reach: 2.0, trust: 1.0, parted: false };
         let difference = |position: [f64; 3], normal: DVec3, medium| {
             site.difference(&spot(DVec3::from(position), normal.normalize(), medium), 0.2)
         };

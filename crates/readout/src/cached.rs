@@ -16,8 +16,10 @@ const RAYS_OF_REACH: u32 = 64;
 /// spread of its passes shows nothing.
 const SEED: u64 = 0;
 const PASS: u32 = u32::MAX - 3;
-/// Candidates in the first batch; each one after takes half as many as were asked before it.
+/// Candidates in the first batch; each one after takes half as many as were asked before it, and no more than that: the sites of one batch are
+/// compared each with each.
 const FIRST_BATCH: usize = 64;
+const LARGEST_BATCH: usize = 1 << 13;
 /// Sites stand no closer than candidates, of which so many are nearest.
 const NEIGHBOURS: usize = 4;
 /// The shortest reach over the scene's size.
@@ -43,7 +45,7 @@ impl<const C: usize> Cache<'_, C> {
     ) -> Light<C> {
         let Spot { at, sight, used } = spot;
         let mut light = gatherer.without_reflected(at, sight, (*used, share), stream, scratch);
-        let told = self.sites.tell(spot, self.records);
+        let told = self.sites.tell(spot, self.records, gatherer.world);
         light.add(&told.unwrap_or_else(|| gatherer.reflected_once(at, *sight, *used, stream, scratch)));
         light
     }
@@ -51,7 +53,7 @@ impl<const C: usize> Cache<'_, C> {
 
 impl<const C: usize> Session<'_, C> {
     /// True if a cache has anything to tell.
-    pub(crate) fn caches(&self) -> bool {
+    pub fn caches(&self) -> bool {
         let gathers = matches!(self.settings.method, Method::FinalGather { .. });
         self.settings.cache && gathers && (self.needs.indirect || self.needs.in_scattering)
     }
@@ -71,12 +73,12 @@ impl<const C: usize> Session<'_, C> {
         let mut sites = Sites::default();
         let mut asked = 0;
         while asked < order.len() {
-            let batch = &order[asked..(asked + FIRST_BATCH.max(asked / 2)).min(order.len())];
+            let batch = &order[asked..(asked + (asked / 2).clamp(FIRST_BATCH, LARGEST_BATCH)).min(order.len())];
             asked += batch.len();
             let found: Vec<Site<C>> = batch
                 .par_iter()
                 .map(|&(_, index)| (index, spots[index]))
-                .filter(|(_, spot)| !sites.cover(spot))
+                .filter(|(_, spot)| !sites.cover(spot, self.world))
                 .map(|(index, spot)| {
                     let reaches = [(spacings[index] / ACCURACY).max(shortest), 2.0 * self.largest_radius()];
                     Site::new(spot, &gatherer, RAYS_OF_REACH, reaches, &mut rays(SEED, PASS, index))
@@ -84,7 +86,7 @@ impl<const C: usize> Session<'_, C> {
                 .collect();
             let mut taken: Vec<Site<C>> = Vec::new();
             for site in found {
-                if taken.iter().all(|other| other.difference(&site.spot, ACCURACY).is_none()) {
+                if taken.iter().all(|other| other.stands_for(&site.spot, ACCURACY, self.world).is_none()) {
                     taken.push(site);
                 }
             }

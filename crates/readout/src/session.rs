@@ -195,6 +195,8 @@ impl<const C: usize> Session<'_, C> {
     fn target_is_out_of_reach(&self, run: &Run<C>, target: Option<f64>) -> bool {
         let Some(target) = target else { return false };
         let shrinks = match self.settings.method {
+            // The sites of a cache stay where they are, and what it errs between them with them.
+            Method::FinalGather { .. } if self.caches() => false,
             Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
             Method::Nearest { k } => k.is_none(),
             Method::Adaptive | Method::Path | Method::Bins => true,
