@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use photonlab_gather::{AreaModel, Estimator, Kernel};
 use photonlab_photometry::UnitSystem;
-use photonlab_readout::{Direct, Draws, Method, Settings, Wanted};
+use photonlab_readout::{Aids, Direct, Draws, Method, Settings, Wanted};
 use photonlab_scene::Scene;
 use photonlab_trace::Limits;
 
@@ -65,6 +65,16 @@ impl Options {
             Some(KernelName::Gaussian) => Kernel::Gaussian,
             None => DEFAULT_ESTIMATOR.kernel,
         };
+        if self.cache && self.guided {
+            return Err(Failure::usage(
+                "--guided guides rays of each point and --cache sends none there; give one of them",
+            ));
+        }
+        if self.precompute && self.max_depth.or(scene.max_depth).is_some() {
+            return Err(Failure::usage(
+                "--precompute knows light of paths of any length; leave it out, or --max-depth and the scene's max_depth",
+            ));
+        }
         if self.cache && !scene.media.is_empty() {
             return Err(Failure::usage("--cache is not built yet for scenes with media; leave it out"));
         }
@@ -78,7 +88,7 @@ impl Options {
             direct,
             estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(usual_gather_rays(self.cache)),
-            cache: self.cache,
+            aids: Aids { cache: self.cache, guide: self.guided, precompute: self.precompute },
             draws: self.draws(method),
             seed: self.seed,
             limits: Limits {
@@ -132,7 +142,7 @@ impl Options {
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
-    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 11] {
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 13] {
         use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Progressive, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
@@ -141,6 +151,8 @@ impl Options {
             ("area", self.area.is_some(), &[Radius, Nearest, Adaptive, Progressive]),
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
             ("cache", self.cache, &[FinalGather]),
+            ("guided", self.guided, &[FinalGather]),
+            ("precompute", self.precompute, &[FinalGather]),
             ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive, Progressive]),
             ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive, Bins]),
             ("draws", self.draws.is_some(), &[FinalGather, Radius, Adaptive, Progressive, Bins]),

@@ -1,7 +1,7 @@
 //! The command that gives the same bits again.
 
 use photonlab_gather::{AreaModel, Kernel};
-use photonlab_readout::{Direct, Method, Outcome, Settings, USUAL_PASSES};
+use photonlab_readout::{Aids, Direct, Method, Outcome, Settings, USUAL_PASSES};
 
 use crate::{
     chosen::usual_gather_rays,
@@ -57,7 +57,7 @@ pub(crate) fn fixed_command<const C: usize>(
         };
         option("area", area.into());
     }
-    if settings.gather_rays != usual_gather_rays(settings.cache) {
+    if settings.gather_rays != usual_gather_rays(settings.aids.cache) {
         option("gather-rays", settings.gather_rays.to_string());
     }
     if options.map.is_none() && settings.draws != settings.method.usual_draws() && settings.method != Method::Path {
@@ -93,8 +93,11 @@ pub(crate) fn fixed_command<const C: usize>(
     if let Some([width, height]) = options.size {
         option("size", format!("{width}x{height}"));
     }
-    if settings.cache {
-        words.push("--cache".into());
+    let Aids { cache, guide, precompute } = settings.aids;
+    for (option, given) in [("--cache", cache), ("--guided", guide), ("--precompute", precompute)] {
+        if given {
+            words.push(option.into());
+        }
     }
     for (name, value) in &scene.define {
         words.extend(["-D".into(), quoted(&format!("{name}={value}"))]);

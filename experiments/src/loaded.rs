@@ -1,7 +1,7 @@
 //! A scene loaded and made ready, and everything that is said of it on the way.
 
 use photonlab_photometry::{Channels, Response, Spectrum};
-use photonlab_readout::{MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
+use photonlab_readout::{Aids, MapFile, MapHeader, ReadError, Schedule, Session, Settings, Wanted, scene_identity};
 use photonlab_sampling::{PassOptics, leak};
 use photonlab_scene::{Emitter, Needs, Receiver, Scene, World, read::read_scene};
 
@@ -113,8 +113,8 @@ pub(crate) fn wanted<const C: usize>(options: &Options, map: Option<&MapFile<C>>
 /// The schedule of a session, with its default count named on standard error.
 pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());
-    if session.settings.cache && !session.caches() {
-        say!("note: nothing is reflected here that --cache could tell of; it and --gather-rays change nothing");
+    if session.settings.aids != Aids::default() && !session.reads_reflected() {
+        say!("note: nothing is reflected here; --cache, --guided, --precompute and --gather-rays change nothing");
     }
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()

@@ -112,6 +112,8 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cached furnace", 6),
     ("cached room", 8),
     ("cached floor with a wall", 6),
+    ("aided cube", 4),
+    ("aided room", 4),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

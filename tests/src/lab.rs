@@ -8,7 +8,7 @@ use std::{
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
-    Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
+    Aids, Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
@@ -167,7 +167,7 @@ pub fn settings(method: Method, seed: u64) -> Settings {
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
-        cache: false,
+        aids: Aids::default(),
         draws: method.usual_draws(),
         seed,
         limits: Limits::default(),

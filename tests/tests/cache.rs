@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_readout::{Method, Settings};
+use photonlab_readout::{Aids, Method, Settings};
 use photonlab_reference::cube::Cube;
 use photonlab_tests::{Family, Lab, seed, settings};
 
@@ -10,7 +10,7 @@ const PIXELS: u32 = 24;
 
 fn cached(number: u32) -> Settings {
     let plain = settings(Method::FinalGather { radius: None }, seed(number));
-    Settings { cache: true, gather_rays: 64, ..plain }
+    Settings { aids: Aids { cache: true, ..Aids::default() }, gather_rays: 64, ..plain }
 }
 
 /// A picture of one face of CUBE: along an edge into the corner, and along the middle.

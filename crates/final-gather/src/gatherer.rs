@@ -1,12 +1,13 @@
 //! All light at a diffuse point.
 
-use photonlab_gather::{AreaModel, Bandwidth, CHECK, Estimator, Kernel, PhotonMap, Scratch, Tests};
-use photonlab_photometry::Colour;
+use photonlab_gather::{
+    AreaModel, Bandwidth, CHECK, Estimate, Estimator, GatherPoint, Kernel, NEAR, PhotonMap, Precomputed, Scratch, Tests,
+};
 use photonlab_sampling::{Optics, Sight, Stream, sample_direct, warp};
 use photonlab_scene::{Hit, SurfacePoint, World};
 
 use crate::{
-    EyeLimits, Light, Place, VolumeMaps,
+    EyeLimits, Guide, Light, Place, VolumeMaps,
     look::{Lamps, met_by_chance},
     segment,
 };
@@ -41,6 +42,8 @@ pub struct GatherMaps<'m, const C: usize> {
     pub volume: Option<VolumeMaps<'m, C>>,
     /// How photons on surfaces are weighed.
     pub kernel: Kernel,
+    /// What is known of the surface map where rays land; `None` if they read it themselves.
+    pub precomputed: Option<&'m Precomputed<C>>,
 }
 
 /// Final gather over maps, or path tracing without.
@@ -58,6 +61,8 @@ pub struct Gatherer<'w, const C: usize> {
     pub looks_around: bool,
     /// False if the caller knows what caustic light arrives where a walk starts; elsewhere it comes from the map.
     pub caustics_at_start: bool,
+    /// By which the first ray's direction is drawn; `None` draws it by the cosine.
+    pub guide: Option<&'w Guide>,
 }
 
 impl<const C: usize> Gatherer<'_, C> {
@@ -76,9 +81,15 @@ impl<const C: usize> Gatherer<'_, C> {
     ) -> Light<C> {
         let mut light = self.known(at, &sight, (used, share), self.caustics_at_start, stream, scratch);
         if self.looks_on(used) {
-            let direction = warp::square_to_cosine_hemisphere(stream.next2(), sight.normals.shading);
+            let xi = stream.next2();
             stream.leave_prefix();
-            let turned = self.turned_to_lamp(at, &sight, direction, stream);
+            let turned = match self.guide {
+                Some(guide) => guide.draw(xi, sight.normals.shading),
+                None => {
+                    let direction = warp::square_to_cosine_hemisphere(xi, sight.normals.shading);
+                    self.turned_to_lamp(at, &sight, direction, stream)
+                }
+            };
             light.add(&self.look(at, sight, used, turned, Lamps::Counted, stream, scratch).light);
         }
         light
@@ -178,7 +189,38 @@ impl<const C: usize> Gatherer<'_, C> {
         let surface = maps.surface?;
         let near =
             distance < 2.0 * surface.radius || self.world.ball_leaves_surface(&hit.point, CHECK * surface.radius);
-        (!near).then(|| self.read((&surface, maps.kernel), &hit.point, sight, used, scratch))
+        if near {
+            return None;
+        }
+        let known = maps.precomputed.filter(|_| sight.is_plain() && self.limits.max_segments.is_none());
+        let told =
+            known.and_then(|known| known.near(&self.gather_point(&hit.point, sight), NEAR * surface.radius, scratch));
+        Some(
+            told.map(of_estimate)
+                .unwrap_or_else(|| self.read((&surface, maps.kernel), &hit.point, sight, used, scratch)),
+        )
+    }
+
+    /// What the surface map's ball reads at a place, for [`Precomputed`]; `None` where the ball that checks it leaves its surface.
+    pub fn precompute(
+        &self,
+        at: &SurfacePoint,
+        sight: &Sight<C>,
+        scratch: &mut Scratch,
+    ) -> Option<(GatherPoint, Estimate<C>)> {
+        let maps = self.maps?;
+        let surface = maps.surface?;
+        if self.world.ball_leaves_surface(at, CHECK * surface.radius) {
+            return None;
+        }
+        let estimate = self.estimate((&surface, maps.kernel), at, sight, 0, scratch);
+        Some((self.gather_point(at, sight), estimate))
+    }
+
+    /// A surface point as maps know it.
+    pub fn gather_point(&self, at: &SurfacePoint, sight: &Sight<C>) -> GatherPoint {
+        let normal = sight.normals.geometric.as_vec3().to_array();
+        GatherPoint { position: self.world.stored(at.position), normal }
     }
 
     fn read(
@@ -189,23 +231,33 @@ impl<const C: usize> Gatherer<'_, C> {
         used: u32,
         scratch: &mut Scratch,
     ) -> Light<C> {
+        of_estimate(self.estimate((source, kernel), at, sight, used, scratch))
+    }
+
+    fn estimate(
+        &self,
+        (source, kernel): (&MapWithRadius<'_, PhotonMap<C>>, Kernel),
+        at: &SurfacePoint,
+        sight: &Sight<C>,
+        used: u32,
+        scratch: &mut Scratch,
+    ) -> Estimate<C> {
         let tests =
             Tests { max_segments: self.limits.max_segments.map(|max| max.saturating_sub(used)), ..Tests::default() };
         let bandwidth = Bandwidth::Radius(source.radius);
         // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
         let estimator = Estimator::new(kernel, AreaModel::Disc);
         let place = Place { world: self.world, optics: self.optics, at, sight };
-        let estimate = place.estimate(source.map, bandwidth, estimator, &tests, scratch);
-        Light {
-            irradiance: estimate.irradiance,
-            bias: estimate.bias,
-            noise: 0.0,
-            noise_of_bias: 0.0,
-            unresolved: Colour::ZERO,
-            photons: estimate.photons as f64,
-            reads: 1.0,
-            glints: 0.0,
-            astray: 0.0,
-        }
+        place.estimate(source.map, bandwidth, estimator, &tests, scratch)
+    }
+}
+
+fn of_estimate<const C: usize>(estimate: Estimate<C>) -> Light<C> {
+    Light {
+        irradiance: estimate.irradiance,
+        bias: estimate.bias,
+        photons: estimate.photons as f64,
+        reads: 1.0,
+        ..Light::default()
     }
 }

@@ -9,6 +9,7 @@
 mod cache;
 mod collision;
 mod gatherer;
+mod guide;
 mod hemisphere;
 mod in_scattering;
 mod light;
@@ -22,6 +23,7 @@ mod zones;
 
 pub use cache::{ACCURACY, Sites};
 pub use gatherer::{GatherMaps, Gatherer, MapWithRadius};
+pub use guide::{Guide, UNGUIDED};
 pub use in_scattering::{InScattering, VolumeMaps};
 pub use light::Light;
 pub use place::{Place, surface_inside, surface_seen};

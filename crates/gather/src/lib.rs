@@ -13,6 +13,7 @@ mod estimate;
 mod facing;
 mod kernel;
 mod map;
+mod precomputed;
 mod volume;
 
 pub use bandwidth::{AreaModel, Bandwidth, Estimator, Tests};
@@ -20,4 +21,5 @@ pub use boundary::{Inside, OpenPlane, Surroundings};
 pub use estimate::Estimate;
 pub use kernel::Kernel;
 pub use map::{CHECK, GatherPoint, PhotonMap, SAME_SURFACE, Scratch};
+pub use precomputed::{NEAR, Precomputed};
 pub use volume::{Beam, Scattered, VolumeEstimate, VolumeMap};

@@ -210,6 +210,15 @@ impl<const C: usize> PhotonMap<C> {
         Estimate { irradiance, bias: told, photons: found.len(), radius, remedied }
     }
 
+    /// Shows each of the nearest few photons that count at a point.
+    pub fn each_nearest(&self, at: &GatherPoint, k: usize, scratch: &mut Scratch, mut show: impl FnMut(&Photon<C>)) {
+        let tests = Tests::default();
+        let accepted = self.accepted(at, &tests, AreaModel::Disc);
+        let in_block = |first, mask| accepted.in_block(first, mask);
+        self.tree.nearest_of_blocks(at.position, k, f32::INFINITY, in_block, &mut scratch.found);
+        scratch.found.iter().for_each(|neighbour| show(&self.tree.payloads()[neighbour.index]));
+    }
+
     /// Median, over up to `probes` photons spread evenly through the map, of the distance to the k-th nearest photon that
     /// counts there: the radius that holds about k photons where photons are. `None` for a map of fewer than k photons.
     pub fn typical_radius(&self, k: usize, probes: usize, scratch: &mut Scratch) -> Option<f64> {

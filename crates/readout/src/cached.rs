@@ -52,10 +52,15 @@ impl<const C: usize> Cache<'_, C> {
 }
 
 impl<const C: usize> Session<'_, C> {
-    /// True if a cache has anything to tell.
-    pub fn caches(&self) -> bool {
+    /// True if final gather has anything to look around for.
+    pub fn reads_reflected(&self) -> bool {
         let gathers = matches!(self.settings.method, Method::FinalGather { .. });
-        self.settings.cache && gathers && (self.needs.indirect || self.needs.in_scattering)
+        gathers && (self.needs.indirect || self.needs.in_scattering)
+    }
+
+    /// True if a cache has anything to tell.
+    pub(crate) fn caches(&self) -> bool {
+        self.settings.aids.cache && self.reads_reflected()
     }
 
     /// Where the cache looks around: places that cells read, so that some site stands for each. Candidates come in an order without

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use photonlab_final_gather::{EyeLimits, Gatherer, InScattering, Light, Place, Spot, Start, follow};
+use photonlab_final_gather::{EyeLimits, Gatherer, Guide, InScattering, Light, Place, Spot, Start, follow};
 use photonlab_gather::{Bandwidth, CHECK, Estimator, Scratch, Tests};
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
@@ -16,6 +16,9 @@ use crate::{
     lattice,
     maps::PassMaps,
 };
+
+/// Points of a cell whose photons guide the rays of all.
+const GUIDED_BY: u64 = 4;
 
 /// Looks into one pass's light.
 #[derive(Clone, Copy)]
@@ -37,6 +40,8 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) shares: &'p [f64],
     /// Caustic light that is counted in cells.
     pub(crate) caustics: &'p CausticCells<C>,
+    /// What guides each cell's rays; empty if nothing does.
+    pub(crate) guides: &'p [Option<Guide>],
     /// What final gather has found at few places, if it caches.
     pub(crate) cache: Option<Cache<'p, C>>,
 }
@@ -84,7 +89,8 @@ impl<const C: usize> Look<'_, C> {
         let ending = self.ending(cell, number, sample, shift);
         let mut light = ending.light;
         if let Some(End { spot, weight, share, caustics }) = ending.end {
-            let seed = Seed { first, sample, shift, share, radius, caustics };
+            let guide = self.guides.get(number).and_then(Option::as_ref);
+            let seed = Seed { first, sample, shift, share, radius, caustics, guide };
             light.add(&self.irradiance(&spot, seed, scratch).weighted(weight));
         }
         Sample { light, dark: ending.dark }
@@ -188,7 +194,17 @@ impl<const C: usize> Look<'_, C> {
             limits: self.limits(),
             looks_around: self.looks_around,
             caustics_at_start,
+            guide: None,
         }
+    }
+
+    /// What the photons near a cell's first few points say of where its light comes from.
+    pub(crate) fn guide(&self, cell: &Cell, number: usize, scratch: &mut Scratch) -> Option<Guide> {
+        let map = self.maps.surface.as_ref()?;
+        let (gatherer, shift) = (self.gatherer(true), self.shift(number));
+        let spots = (0..self.samples.min(GUIDED_BY)).filter_map(|sample| self.spot(cell, number, sample, &shift));
+        let place = |spot: Spot<C>| (gatherer.gather_point(&spot.at, &spot.sight), spot.sight.normals.shading);
+        Guide::new(map, spots.map(place), scratch)
     }
 
     /// The mean over the gather rays of one point.
@@ -203,7 +219,7 @@ impl<const C: usize> Look<'_, C> {
             let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix([a, b, c, d, e]);
             light.add(&match self.settings.method {
                 Method::FinalGather { .. } | Method::Path => {
-                    let gatherer = self.gatherer(seed.caustics);
+                    let gatherer = Gatherer { guide: seed.guide, ..self.gatherer(seed.caustics) };
                     match self.cache.filter(|_| spot.is_plain()) {
                         Some(cache) => cache.irradiance(&gatherer, spot, seed.share, &mut stream, scratch),
                         None => gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch),
@@ -309,4 +325,6 @@ struct Seed<'s> {
     radius: f64,
     /// False if caustic light is counted in the cell.
     caustics: bool,
+    /// What guides gather rays.
+    guide: Option<&'s Guide>,
 }

@@ -1,7 +1,7 @@
 //! The photons of one pass and the maps made of them.
 
 use photonlab_final_gather::{GatherMaps, MapWithRadius, VolumeMaps};
-use photonlab_gather::{Kernel, PhotonMap, Scratch, VolumeMap};
+use photonlab_gather::{Kernel, PhotonMap, Precomputed, Scratch, VolumeMap};
 use photonlab_kdtree::SplitRule;
 use photonlab_photometry::{PathClass, Photon, VolumePhoton};
 use photonlab_sampling::{Optics, Sought};
@@ -82,6 +82,8 @@ pub(crate) struct PassMaps<const C: usize> {
     volume_caustic: Option<VolumeMap<C>>,
     volume_caustic_radius: f64,
     kernel: Kernel,
+    /// What the surface map says at places of its own, if that is asked once.
+    pub(crate) precomputed: Option<Precomputed<C>>,
     /// Caustic light that cells of meters count for themselves.
     pub(crate) in_cells: CausticCells<C>,
 }
@@ -107,6 +109,7 @@ impl<const C: usize> PassMaps<C> {
             volume_caustic: None,
             volume_caustic_radius: 0.0,
             kernel: Kernel::Disc,
+            precomputed: None,
             in_cells: CausticCells::none(),
         }
     }
@@ -183,6 +186,7 @@ impl<const C: usize> PassMaps<C> {
             volume_caustic,
             volume_caustic_radius,
             kernel: settings.estimator.kernel,
+            precomputed: None,
             in_cells,
         })
     }
@@ -200,6 +204,7 @@ impl<const C: usize> PassMaps<C> {
             caustic: self.caustic.as_ref().map(|map| MapWithRadius { map, radius: self.caustic_radius }),
             volume: self.volume_maps(),
             kernel: self.kernel,
+            precomputed: self.precomputed.as_ref(),
         }
     }
 }

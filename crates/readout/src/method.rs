@@ -89,14 +89,25 @@ pub struct Settings {
     pub estimator: Estimator,
     /// Rays per gather point; of a cache, per site and pass.
     pub gather_rays: u32,
-    /// Final gather looks around at few places alone and tells of all between: the paper's irradiance map.
-    pub cache: bool,
+    /// What makes final gather's rays fewer, better or cheaper.
+    pub aids: Aids,
     /// How photons are drawn.
     pub draws: Draws,
     /// The run's seed.
     pub seed: u64,
     /// Longest path in segments (as Mitsuba's `max_depth`) and longest specular run.
     pub limits: Limits,
+}
+
+/// What makes final gather's rays fewer, better or cheaper; the mean that they go to is the same but for a bias that is told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Aids {
+    /// Final gather looks around at few places alone and tells of all between: the paper's irradiance map.
+    pub cache: bool,
+    /// Photons near a point guide its rays to where the light comes from.
+    pub guide: bool,
+    /// The map is read at places of its own once a pass, and rays take what is known where they land.
+    pub precompute: bool,
 }
 
 /// How the photons of one pass leave their lamps.
@@ -126,7 +137,7 @@ impl Settings {
 
     /// Final-gather rays of each sample.
     pub(crate) fn rays_per_sample(&self) -> u32 {
-        if self.cache { 1 } else { self.gather_rays }
+        if self.aids.cache { 1 } else { self.gather_rays }
     }
 
     /// Classes of photon that the method reads.

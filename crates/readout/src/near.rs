@@ -106,6 +106,7 @@ impl<const C: usize> Session<'_, C> {
             told_of: 0,
             shares: &shares,
             caustics: &caustics,
+            guides: &[],
             cache: None,
         };
         let of_cell = |index: usize| {

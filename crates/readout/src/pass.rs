@@ -1,6 +1,6 @@
 //! One pass of a session.
 
-use photonlab_final_gather::{Light, Sites};
+use photonlab_final_gather::{Guide, Light, Sites, UNGUIDED};
 use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
 use photonlab_sampling::{Optics, Purpose, Sought, Stream};
@@ -63,6 +63,7 @@ impl<const C: usize> Session<'_, C> {
             told_of: self.told_of(),
             shares: &shares,
             caustics: &maps.in_cells,
+            guides: &[],
             cache: None,
         };
         let passes = passes_at_hand(schedule, source).map_or(USUAL_PASSES, |passes| passes.min(USUAL_PASSES));
@@ -92,6 +93,9 @@ impl<const C: usize> Session<'_, C> {
         if caches {
             look.cache = Some(Cache { sites, records: &records });
         }
+        // The photons of the first pass guide the rays of all: no later pass knows them, and asking them costs more than rays do.
+        let guide = self.settings.aids.guide;
+        look.guides = run.guides.get_or_insert_with(|| if guide { guides(&look, cells) } else { Vec::new() });
         let found = read(&look, cells, &radii);
         let counts_spread = self.settings.draws == Draws::Spread && matches!(source, Source::Trace);
         let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
@@ -116,8 +120,10 @@ impl<const C: usize> Session<'_, C> {
             let mean = mean.developed(&optics.palette);
             let cell = &mut run.cells[index];
             cell.push(&mean, light.photons, dark);
-            // Samples that a cache answers share its rays.
-            let of_own = if caches { (f64::from(self.settings.gather_rays) / samples as f64).min(1.0) } else { 1.0 };
+            // Samples that a cache answers share its rays. Guided ones look as thinly as the unguided of them in places.
+            let guided = if self.settings.aids.guide { UNGUIDED } else { 1.0 };
+            let of_own =
+                guided * if caches { (f64::from(self.settings.gather_rays) / samples as f64).min(1.0) } else { 1.0 };
             cell.glints += of_own * light.glints;
             cell.rays += of_own * (samples * u64::from(self.settings.rays_per_sample())) as f64;
             cell.brightest_glint =
@@ -214,11 +220,20 @@ impl<const C: usize> Session<'_, C> {
         if let Some(near) = self.near(run, cells, optics, number, schedule) {
             near.sift(&mut photons);
         }
-        let maps =
-            PassMaps::build(photons, (self.world, self.needs), cells, &self.settings, number as u32, &mut run.radii)?;
+        let (emitted, of) = (photons.emitted, (self.world, self.needs));
+        let mut maps = PassMaps::build(photons, of, cells, &self.settings, number as u32, &mut run.radii)?;
+        if self.precomputes() {
+            maps.precomputed = Some(self.precomputed(run, optics, &maps, emitted)?);
+        }
         run.radius += if maps.surface.is_some() { maps.surface_radius } else { maps.caustic_radius };
         Ok(maps)
     }
+}
+
+/// What guides the rays of each cell.
+fn guides<const C: usize>(look: &Look<'_, C>, cells: &[Cell]) -> Vec<Option<Guide>> {
+    let numbered = cells.par_iter().enumerate();
+    numbered.map_init(Scratch::default, |scratch, (number, cell)| look.guide(cell, number, scratch)).collect()
 }
 
 /// What the samples of each cell found together.

@@ -1,6 +1,6 @@
 //! What a run has found so far.
 
-use photonlab_final_gather::Sites;
+use photonlab_final_gather::{Guide, Sites};
 use photonlab_measure::Stopped;
 use photonlab_photometry::Colour;
 use photonlab_trace::Ledger;
@@ -9,6 +9,7 @@ use crate::{
     CellResult, Method, Outcome, Session,
     adaptive::{CellRadius, Common},
     maps::Radii,
+    precomputed::PlaceOnSide,
 };
 
 /// What the passes so far have found.
@@ -18,6 +19,10 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) radii: Radii,
     /// Where an irradiance cache looks around, chosen before the first pass.
     pub(crate) sites: Option<Sites<C>>,
+    /// What guides the rays of each cell, by the photons of the first pass; empty if nothing does.
+    pub(crate) guides: Option<Vec<Option<Guide>>>,
+    /// Where final gather's map is read once a pass, chosen before the first.
+    pub(crate) places: Option<Vec<PlaceOnSide<C>>>,
     /// Each cell's own radius, for [`Method::Adaptive`].
     pub(crate) of_cells: Vec<CellRadius>,
     /// What all cells have shown before the first pass is read, for it and other direct views that nobody has tuned.
@@ -40,6 +45,8 @@ impl<const C: usize> Run<C> {
             ledger: None,
             radii: Radii::default(),
             sites: None,
+            guides: None,
+            places: None,
             of_cells: vec![CellRadius::default(); cells],
             common: Common::default(),
             k: None,

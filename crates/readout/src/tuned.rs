@@ -1,10 +1,9 @@
 //! The radius of a direct view, from a look at two passes' photons.
 
-use glam::DVec3;
 use photonlab_final_gather::Light;
 use photonlab_gather::{PhotonMap, Scratch};
 use photonlab_sampling::Sight;
-use photonlab_scene::{Ray, SurfacePoint};
+use photonlab_scene::SurfacePoint;
 use rayon::prelude::*;
 
 use crate::{
@@ -21,8 +20,6 @@ const POINTS: usize = 4096;
 const POINTS_ASTRAY: usize = 1024;
 /// Fewer cells than this are not looked at themselves.
 pub(crate) const FEWEST_CELLS: usize = 256;
-/// A photon's surface is sought from so far, over the scene's size: its place is known to some 1e-7.
-const AWAY: f64 = 1e-5;
 /// Looks at most, each at twice the radius.
 const LOOKS: usize = 8;
 /// No radius holds more photons than this on average: beyond, time grows and little is gained.
@@ -110,15 +107,7 @@ impl<const C: usize> Session<'_, C> {
 
     /// Points of the scene where photons lie, spread evenly through the map.
     fn where_photons_lie(&self, map: &PhotonMap<C>) -> Places<'static, C> {
-        let (low, high) = self.world.bounds();
-        let away = AWAY * (high - low).length();
-        let place = |index: usize| {
-            let normal = DVec3::from(map.tree().payloads()[index].normal.unpack().map(f64::from));
-            let at = self.world.middle() + DVec3::from(map.tree().point(index).map(f64::from));
-            let hit = self.world.cast(&Ray::new(at + away * normal, -normal), None, 2.0 * away)?;
-            let sight = Sight::meter(hit.facing_normal(), None);
-            (hit.facing_normal().dot(normal) > 0.5).then_some((hit.point, sight))
-        };
+        let place = |index: usize| self.where_it_lies(map.tree().point(index), map.tree().payloads()[index].normal);
         let step = (map.len() / POINTS).max(1);
         Places::Photons((0..map.len()).step_by(step).filter_map(place).collect())
     }

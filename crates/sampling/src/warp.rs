@@ -21,7 +21,8 @@ impl Frame {
         Self { tangent, bitangent, normal }
     }
 
-    pub(crate) fn local(&self, v: DVec3) -> DVec3 {
+    /// A vector in the frame's axes.
+    pub fn local(&self, v: DVec3) -> DVec3 {
         DVec3::new(v.dot(self.tangent), v.dot(self.bitangent), v.dot(self.normal))
     }
 

@@ -7,7 +7,7 @@ use std::{
 
 use photonlab_gather::Estimator;
 use photonlab_measure::{Interval, normal_quantile, student_t_quantile};
-use photonlab_readout::{Cell, CellResult, Direct, Method, Settings, Target, Wanted};
+use photonlab_readout::{Aids, Cell, CellResult, Direct, Method, Settings, Target, Wanted};
 use photonlab_reference::catalogue::Case;
 use photonlab_scene::Emitter;
 use photonlab_trace::Limits;
@@ -204,7 +204,7 @@ fn attempt<const C: usize>(
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
-        cache: false,
+        aids: Aids::default(),
         draws: way.method().usual_draws(),
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

@@ -3,7 +3,7 @@
 use photonlab_measure::student_t_quantile;
 use photonlab_measure::{Comparison, Expected, Replicates, Row};
 use photonlab_photometry::Colour;
-use photonlab_readout::{Cell, Direct, Method, Settings, Target, Wanted};
+use photonlab_readout::{Aids, Cell, Direct, Method, Settings, Target, Wanted};
 use photonlab_reference::{
     ball_lens::BallLens, cube::Cube, integrating_sphere::IntegratingSphere, square_lamp::RectangularLamp,
 };
@@ -86,7 +86,7 @@ pub(super) fn measure(first: u64, seeds: u64, photons: u64, points: u64, confide
                 direct: Direct::Photons,
                 estimator: DEFAULT_ESTIMATOR,
                 gather_rays: 1,
-                cache: false,
+                aids: Aids::default(),
                 draws: of.usual_draws(),
                 seed,
                 limits: Limits::default(),

@@ -3,7 +3,7 @@
 use photonlab_gather::Estimator;
 use photonlab_measure::{Interval, Row};
 use photonlab_photometry::Colour;
-use photonlab_readout::{Cell, Direct, Method, Settings, Wanted};
+use photonlab_readout::{Aids, Cell, Direct, Method, Settings, Wanted};
 use photonlab_reference::furnace::Furnace;
 use photonlab_trace::Limits;
 use serde::Deserialize;
@@ -64,7 +64,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<Furnac
                 direct: Direct::Photons,
                 estimator: Estimator::default(),
                 gather_rays: 1,
-                cache: false,
+                aids: Aids::default(),
                 draws: method.usual_draws(),
                 seed: p.seed,
                 limits: Limits::default(),

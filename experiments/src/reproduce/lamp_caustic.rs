@@ -37,5 +37,5 @@ pub(super) fn under(
     let truth = truth.collect::<anyhow::Result<Vec<f64>>>()?;
     let scale = truth.iter().sum::<f64>() / truth.len() as f64;
     let truth = truth.into_iter().map(|mean| Some(([mean], scale))).collect();
-    Ok(Bench { id, lab, cells: read, truth, border: Vec::new() })
+    Ok(Bench { id, lab, cells: read, truth, noise_of_truth: 0.0, border: Vec::new() })
 }

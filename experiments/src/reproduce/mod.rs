@@ -10,10 +10,11 @@ mod caustic_profile;
 mod checker_detail;
 mod claims;
 mod context;
-mod cornell_picture;
+mod controlled;
 mod covered;
 mod cpu_clock;
 mod cube_error;
+mod cube_face;
 mod cube_field;
 mod cube_law;
 mod date;
@@ -47,6 +48,7 @@ mod stop_charts;
 mod stopped;
 mod strategy;
 mod table;
+mod tested;
 mod torus;
 mod transmitter;
 mod trials;
@@ -104,7 +106,15 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
     if words.is_empty() {
         return Ok(Claim::ALL.to_vec());
     }
-    let asked = [Claim::Catalogue, Claim::Atlas, Claim::Coverage, Claim::Convergence, Claim::Cost];
+    let asked = [
+        Claim::Catalogue,
+        Claim::Atlas,
+        Claim::Coverage,
+        Claim::Convergence,
+        Claim::Cost,
+        Claim::GatherAids,
+        Claim::TestedRadii,
+    ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");
     let find = |word: &String| {

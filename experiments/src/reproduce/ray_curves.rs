@@ -23,6 +23,8 @@ pub(super) struct Bench<const C: usize> {
     pub(super) cells: Vec<Cell>,
     /// What each cell reads without error, and what its error is taken relative to; `None` leaves a cell out.
     pub(super) truth: Vec<Option<([f64; C], f64)>>,
+    /// Mean square relative error of that truth itself, where it was measured: independent of any reading's, it is taken off theirs.
+    pub(super) noise_of_truth: f64,
     /// Cells whose mean error is told apart; may be none.
     pub(super) border: Vec<usize>,
 }
@@ -119,7 +121,7 @@ impl<const C: usize> Bench<C> {
                 measured.border.push(self.border_error(&outcome));
                 measured.seconds.push(spent);
                 measured.reads_map |= outcome.cells.iter().any(|cell| cell.asked_photons);
-                found.rows.push(row(self.id, &strategy, photons, points, seed, square.sqrt(), spent));
+                found.rows.push(row(self.id, &strategy, photons, points, seed, square.max(0.0).sqrt(), spent));
             }
             Ok(measured)
         };
@@ -145,7 +147,7 @@ impl<const C: usize> Bench<C> {
                 count += 1.0;
             }
         }
-        sum / count
+        sum / count - self.noise_of_truth
     }
 }
 

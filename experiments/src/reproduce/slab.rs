@@ -2,7 +2,7 @@
 
 use photonlab_gather::Estimator;
 use photonlab_measure::{Axis, Expected, FigureData, Interval, Point, Row, Series, SeriesKind};
-use photonlab_readout::{Cell, Direct, Draws, Method, Settings, Target, Wanted};
+use photonlab_readout::{Aids, Cell, Direct, Draws, Method, Settings, Target, Wanted};
 use photonlab_reference::{catalogue::Case, medium::slab::Slab, rendering_equation::transmittance};
 use photonlab_trace::Limits;
 use serde::Deserialize;
@@ -79,7 +79,7 @@ pub(super) fn read(p: &Parameters, confidence: f64) -> anyhow::Result<Vec<SlabRe
         direct: Direct::Sampled,
         estimator: Estimator::default(),
         gather_rays: 1,
-        cache: false,
+        aids: Aids::default(),
         draws: Draws::Independent,
         seed: p.seed,
         limits: Limits::default(),

@@ -1,7 +1,7 @@
 //! The strategies that claims compare.
 
 use photonlab_gather::Estimator;
-use photonlab_readout::{Direct, Draws, Method, Settings};
+use photonlab_readout::{Aids, Direct, Draws, Method, Settings};
 use photonlab_trace::Limits;
 
 /// One way to read a scene.
@@ -15,8 +15,11 @@ pub(super) struct Strategy {
     direct: Direct,
     /// Rays of each site of an irradiance cache and pass; `None` without one.
     cache: Option<u32>,
+    /// What else helps its rays.
+    aids: Aids,
 }
 
+const NO_AIDS: Aids = Aids { cache: false, guide: false, precompute: false };
 /// Photons of the nearest-photon strategies.
 const K: usize = 50;
 
@@ -28,6 +31,7 @@ impl Strategy {
         method: Method::Nearest { k: Some(K) },
         direct: Direct::Photons,
         cache: None,
+        aids: NO_AIDS,
     };
     /// The same with a fixed radius.
     pub(super) const RADIUS_DIRECT_VIEW: Strategy = Strategy {
@@ -36,6 +40,7 @@ impl Strategy {
         method: Method::Radius { radius: None },
         direct: Direct::Photons,
         cache: None,
+        aids: NO_AIDS,
     };
     /// Direct light sampled, the rest from the map at the point.
     pub(super) const NEAREST: Strategy = Strategy {
@@ -44,6 +49,7 @@ impl Strategy {
         method: Method::Nearest { k: Some(K) },
         direct: Direct::Sampled,
         cache: None,
+        aids: NO_AIDS,
     };
     /// Final gather.
     pub(super) const FINAL_GATHER: Strategy = Strategy {
@@ -52,15 +58,36 @@ impl Strategy {
         method: Method::FinalGather { radius: None },
         direct: Direct::Sampled,
         cache: None,
+        aids: NO_AIDS,
     };
     /// Path tracing.
-    pub(super) const PATH: Strategy =
-        Strategy { id: "path", title: "path tracing", method: Method::Path, direct: Direct::Sampled, cache: None };
+    pub(super) const PATH: Strategy = Strategy {
+        id: "path",
+        title: "path tracing",
+        method: Method::Path,
+        direct: Direct::Sampled,
+        cache: None,
+        aids: NO_AIDS,
+    };
     /// Final gather at few places, and told of all between.
     pub(super) const CACHED: Strategy = Strategy {
         id: "irradiance-cache",
         title: "final gather, irradiance cache",
         cache: Some(64),
+        ..Self::FINAL_GATHER
+    };
+    /// Final gather whose rays the photons near a point guide.
+    pub(super) const GUIDED: Strategy = Strategy {
+        id: "guided",
+        title: "final gather, guided",
+        aids: Aids { guide: true, ..NO_AIDS },
+        ..Self::FINAL_GATHER
+    };
+    /// Final gather whose map is read once a pass at places of its own.
+    pub(super) const PRECOMPUTED: Strategy = Strategy {
+        id: "precomputed",
+        title: "final gather, precomputed irradiance",
+        aids: Aids { precompute: true, ..NO_AIDS },
         ..Self::FINAL_GATHER
     };
     /// Direct light sampled, the rest from balls at the point, tuned and shrinking from pass to pass.
@@ -93,7 +120,7 @@ impl Strategy {
             direct: self.direct,
             estimator: Estimator::default(),
             gather_rays: self.cache.unwrap_or(1),
-            cache: self.cache.is_some(),
+            aids: Aids { cache: self.cache.is_some(), ..self.aids },
             draws: Draws::Independent,
             seed,
             limits: Limits::default(),

@@ -7,7 +7,7 @@ use photonlab_gather::{AreaModel, Bandwidth, Estimator, GatherPoint, PhotonMap, 
 use photonlab_kdtree::SplitRule;
 use photonlab_measure::Replicates;
 use photonlab_photometry::Palette;
-use photonlab_readout::{Direct, Draws, Method, PassPhotons, Settings, trace_pass};
+use photonlab_readout::{Aids, Direct, Draws, Method, PassPhotons, Settings, trace_pass};
 use photonlab_reference::rendering_equation::{DiffuseTransmitter, EquationReading};
 use photonlab_sampling::{Optics, Sought, Stream, warp};
 use photonlab_trace::{Classes, Limits};
@@ -62,7 +62,7 @@ pub(super) fn read(p: &Sheet, sheet: &DiffuseTransmitter) -> anyhow::Result<Shee
         direct: Direct::Photons,
         estimator: Estimator::default(),
         gather_rays: 1,
-        cache: false,
+        aids: Aids::default(),
         draws: Draws::Independent,
         seed: p.seed,
         limits: Limits::default(),

@@ -3,7 +3,7 @@
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Group, Point, Record, Row, Series, SeriesKind, Verdict, student_t_quantile,
 };
-use photonlab_readout::{Cell, CellResult, Direct, Method, Outcome, Settings, Target, Wanted};
+use photonlab_readout::{Aids, Cell, CellResult, Direct, Method, Outcome, Settings, Target, Wanted};
 use photonlab_reference::catalogue::{ALL, Case, Entry};
 use photonlab_sampling::leak;
 use photonlab_trace::Limits;
@@ -151,7 +151,7 @@ fn read<const C: usize>(
         direct: Direct::Sampled,
         estimator: DEFAULT_ESTIMATOR,
         gather_rays: usual_gather_rays(cache),
-        cache,
+        aids: Aids { cache, ..Aids::default() },
         draws: method.usual_draws(),
         seed,
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },

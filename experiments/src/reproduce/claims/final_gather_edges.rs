@@ -4,7 +4,7 @@ use photonlab_gather::Estimator;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Point, Record, Replicates, Row, Series, SeriesKind, Verdict, sidak_level,
 };
-use photonlab_readout::{Cell, Direct, Draws, Method, Settings, Wanted};
+use photonlab_readout::{Aids, Cell, Direct, Draws, Method, Settings, Wanted};
 use photonlab_reference::cube::Cube;
 use photonlab_trace::Limits;
 use serde::Deserialize;
@@ -180,7 +180,7 @@ fn read(
             direct: reader.direct,
             estimator: Estimator::default(),
             gather_rays: 1,
-            cache: false,
+            aids: Aids::default(),
             draws: Draws::Independent,
             seed,
             limits: Limits::default(),

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
-    cornell_picture::cornell_box,
+    controlled::cornell_box,
     cube_field::METERS,
     lab::Lab,
     ray_curves::{Bench, CONFIDENCE, Curve, Measured, chart, path_law, paths_per_ray, time_ratio},
@@ -64,7 +64,14 @@ fn cube() -> anyhow::Result<Bench<1>> {
     let solution = Cube::BENCHMARK.solve();
     let truth = METERS.map(|(_, [u, v])| solution.luminance(u, v));
     let cells = Cell::of_meters(&lab.world.scene);
-    Ok(Bench { id: "cube", lab, cells, truth: truth.map(|l| Some(([l], l))).to_vec(), border: Vec::new() })
+    Ok(Bench {
+        id: "cube",
+        lab,
+        cells,
+        truth: truth.map(|l| Some(([l], l))).to_vec(),
+        noise_of_truth: 0.0,
+        border: Vec::new(),
+    })
 }
 
 /// Comparisons and figures of one scene.

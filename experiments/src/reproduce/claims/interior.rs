@@ -54,7 +54,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         let expected = receiver.expected_share();
         let Receiver { lab, cells, truth, .. } = receiver;
         let truth = truth.into_iter().map(|truth| Some(([truth], truth))).collect();
-        let bench = Bench { id: site.id(), lab, cells, truth, border: Vec::new() };
+        let bench = Bench { id: site.id(), lab, cells, truth, noise_of_truth: 0.0, border: Vec::new() };
         let paths: Vec<_> = p.points.iter().map(|&points| (None, points)).collect();
         let maps: Vec<_> = p.photons.iter().map(|&photons| (Some(photons), p.gather_points)).collect();
         let curves = [

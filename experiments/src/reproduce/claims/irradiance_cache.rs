@@ -1,27 +1,18 @@
 //! `irradiance-cache`: final gather at few places, told of all between, against the photon map at equal time.
 
 use photonlab_measure::{Comparison, Expected, Interval, Record, Verdict};
-use photonlab_readout::Cell;
 use serde::Deserialize;
 
 use crate::reproduce::{
     context::{Context, Findings},
-    cornell_picture::cornell_box,
-    cube_field::CubeField,
-    lab::Lab,
+    controlled::cornell_box,
+    cube_face::cube_face,
     ray_curves::{Bench, CONFIDENCE, Curve, Measured, chart, error_over},
     strategy::Strategy,
 };
 
-const CUBE: &str = include_str!("../../../scenes/cube.xml");
-/// Pixels across and down either picture.
+/// Pixels across and down the Cornell box's picture.
 const SIZE: u32 = 32;
-/// A camera in CUBE's centre whose picture is one face.
-const CAMERA: &str = r#"<sensor type="perspective" id="face"><float name="fov" value="90"/>
-    <transform name="to_world"><lookat origin="0 0 0" target="5 0 0" up="0 0 1"/></transform>
-    <film type="hdrfilm"><integer name="width" value="32"/><integer name="height" value="32"/><rfilter type="box"/></film></sensor>"#;
-/// Points along each side of a pixel over which the truth is averaged.
-const POINTS: u32 = 8;
 /// The mean along the edges is expected within this, and the direct view's beyond that.
 const EDGE: [f64; 2] = [0.02, 0.1];
 
@@ -59,7 +50,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let control_seed = p.seed + 1_000_000;
     let seeds = p.seed..p.seed + p.replicates;
     let mut found = Findings { seeds: seeds.chain([control_seed]).collect(), ..Findings::default() };
-    let cube = show("CUBE", &cube()?, &p, &mut found)?;
+    let cube = show("CUBE", &cube_face()?, &p, &mut found)?;
     let cornell_box = show("the Cornell box", &cornell_box(SIZE, control_seed, p.control_points)?, &p, &mut found)?;
     for shown in [&cube, &cornell_box] {
         shown.judge(p.replicates, &mut found);
@@ -67,27 +58,6 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     cube.judge_edges(&mut found);
     let (verdict, reason) = conclude(&cube, &cornell_box, p.precision);
     Ok(context.record(found, verdict, reason))
-}
-
-/// One face against the radiosity solution, relative to its mean.
-fn cube() -> anyhow::Result<Bench<1>> {
-    let lab = Lab::new("cube.xml", &CUBE.replace("</scene>", &format!("{CAMERA}</scene>")), &[])?;
-    let sensor = lab.world.scene.sensors.len() - 1;
-    let cells = Cell::of_sensor(&lab.world.scene, sensor);
-    let field = CubeField::new();
-    let along = |pixel: u32, point: u32| {
-        2.0 * (f64::from(pixel) + (f64::from(point) + 0.5) / f64::from(POINTS)) / f64::from(SIZE) - 1.0
-    };
-    let luminance = |[column, row]: [u32; 2]| {
-        let points = (0..POINTS * POINTS).map(|n| (along(column, n % POINTS), along(row, n / POINTS)));
-        let sum: f64 = points.map(|(u, v)| field.illuminance(u, v)).sum();
-        sum / f64::from(POINTS * POINTS) * field.cube().reflectance() / std::f64::consts::PI
-    };
-    let truth: Vec<f64> = cells.iter().map(|cell| luminance(cell.cell)).collect();
-    let mean = truth.iter().sum::<f64>() / truth.len() as f64;
-    let is_border = |&number: &usize| cells[number].cell.iter().any(|&at| at == 0 || at == SIZE - 1);
-    let border = (0..cells.len()).filter(is_border).collect();
-    Ok(Bench { id: "cube", lab, truth: truth.into_iter().map(|l| Some(([l], mean))).collect(), border, cells })
 }
 
 fn show<const C: usize>(

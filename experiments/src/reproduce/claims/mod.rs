@@ -13,6 +13,7 @@ mod final_gather_edges;
 mod final_gather_rays;
 mod fine_detail;
 mod fixed_noisier;
+mod gather_aids;
 mod interior;
 mod irradiance_cache;
 mod kd_memory;
@@ -23,6 +24,7 @@ mod sphere_area;
 mod split_cost;
 mod split_quadratic;
 mod stop_rule;
+mod tested_radii;
 mod view_independence;
 
 use photonlab_measure::Record;
@@ -57,10 +59,12 @@ pub(super) enum Claim {
     Coverage,
     Convergence,
     Cost,
+    GatherAids,
+    TestedRadii,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence and the cost are run when they are asked
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids and the tested radii are run when they are asked
     /// for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
@@ -113,6 +117,8 @@ impl Claim {
             Claim::Convergence => "convergence",
             Claim::Atlas => "atlas",
             Claim::Cost => "cost",
+            Claim::GatherAids => "gather-aids",
+            Claim::TestedRadii => "tested-radii",
         }
     }
 
@@ -144,6 +150,8 @@ impl Claim {
             Claim::Convergence => include_str!("../../../definitions/convergence.toml"),
             Claim::Atlas => include_str!("../../../definitions/atlas.toml"),
             Claim::Cost => include_str!("../../../definitions/cost.toml"),
+            Claim::GatherAids => include_str!("../../../definitions/gather-aids.toml"),
+            Claim::TestedRadii => include_str!("../../../definitions/tested-radii.toml"),
         }
     }
 
@@ -175,6 +183,8 @@ impl Claim {
             Claim::Convergence => convergence::run(context),
             Claim::Atlas => atlas::run(context),
             Claim::Cost => cost::run(context),
+            Claim::GatherAids => gather_aids::run(context),
+            Claim::TestedRadii => tested_radii::run(context),
         }
     }
 }
