@@ -25,16 +25,27 @@ pub(super) struct Tally {
     /// First readings by other ways that hold the answer.
     confirmed: usize,
     pub(super) wrong: Vec<String>,
+    /// Misses that a second reading of the scene did not repeat.
+    pub(super) unrepeated: Vec<String>,
     pub(super) unread: Vec<String>,
     /// The largest deviation from an answer in standard errors, and the largest half-width over the wanted one.
     farthest: f64,
     widest: f64,
 }
 
+/// Which reading of a scene it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Round {
+    First,
+    /// With other random numbers, after an interval has missed.
+    Again,
+}
+
 /// What is being read.
 struct Reading<'c> {
     entry: &'c Entry,
     case: &'c Case,
+    round: Round,
     answer: &'c Answer,
     channel: &'static str,
     truth: f64,
@@ -47,7 +58,7 @@ struct Reading<'c> {
 pub(super) fn compare(
     lab: &Lab,
     rule: &Rule,
-    (entry, case): (&Entry, &Case),
+    (entry, case, round): (&Entry, &Case, Round),
     meter: &MeterReadings,
     along: f64,
     found: &mut Findings,
@@ -62,6 +73,7 @@ pub(super) fn compare(
         let reading = Reading {
             entry,
             case,
+            round,
             answer,
             channel: if channels == 1 { "" } else { [" R", " G", " B"][channel] },
             truth: answer.value[channel.min(answer.value.len() - 1)],
@@ -134,7 +146,8 @@ impl Reading<'_> {
 
     fn label(&self, attempt: &Attempt) -> String {
         let (entry, case, sensor) = (self.entry.id, &self.case.name, &self.answer.sensor);
-        format!("{entry} {case}, {sensor}{}, {}", self.channel, attempt.way.words())
+        let again = if self.round == Round::Again { "again: " } else { "" };
+        format!("{again}{entry} {case}, {sensor}{}, {}", self.channel, attempt.way.words())
     }
 
     fn comparison(&self, label: &str, measured: Option<Interval>) -> Comparison {
@@ -175,6 +188,13 @@ impl Reading<'_> {
 }
 
 impl Tally {
+    /// The misses of a scene are those of its second reading; those of the first that it does not repeat are named.
+    pub(super) fn read_again(&mut self, again: Tally) {
+        let is_repeated = |label: &String| again.wrong.iter().any(|other| other.ends_with(label.as_str()));
+        self.unrepeated = std::mem::take(&mut self.wrong).into_iter().filter(|label| !is_repeated(label)).collect();
+        self.wrong = again.wrong;
+    }
+
     pub(super) fn readings(&self) -> usize {
         self.right + self.dark + self.costly + self.wide
     }
@@ -186,6 +206,7 @@ impl Tally {
         self.wide += other.wide;
         self.confirmed += other.confirmed;
         self.wrong.extend(other.wrong);
+        self.unrepeated.extend(other.unrepeated);
         self.unread.extend(other.unread);
         self.farthest = self.farthest.max(other.farthest);
         self.widest = self.widest.max(other.widest);
@@ -207,12 +228,32 @@ impl Tally {
             "hold it with a wider one, since the wanted one would need more paths than the definition asks for",
         );
         count(self.confirmed, "wider readings by other ways confirm it");
-        for (list, what) in [(&self.wrong, "do not hold it"), (&self.unread, "found too little")] {
+        let lists = [
+            (&self.wrong, "do not hold it"),
+            (&self.unrepeated, "missed it once and not again with other random numbers"),
+            (&self.unread, "found too little"),
+        ];
+        for (list, what) in lists {
             if !list.is_empty() {
                 words.push(format!("{} {what}: {}", list.len(), some(list)));
             }
         }
         let (far, wide) = (self.farthest, self.widest);
         format!("{}; farthest {far:.1} standard errors, widest {wide:.2} times the wanted half-width", words.join(", "))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Tally;
+
+    #[test]
+    fn a_miss_that_is_repeated_stays_one() {
+        let of = |labels: &[&str]| labels.iter().map(ToString::to_string).collect::<Vec<_>>();
+        let mut first = Tally { wrong: of(&["I2 a, meter-0, path", "I2 a, meter-1, path"]), ..Tally::default() };
+        first.read_again(Tally { wrong: of(&["again: I2 a, meter-1, path"]), ..Tally::default() });
+        assert_eq!(first.wrong, ["again: I2 a, meter-1, path"]);
+        assert_eq!(first.unrepeated, ["I2 a, meter-0, path"]);
+        assert!(first.words().contains("1 do not hold it") && first.words().contains("1 missed it once"));
     }
 }

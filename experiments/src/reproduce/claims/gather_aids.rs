@@ -74,7 +74,7 @@ fn show<const C: usize>(
     }
     let id = format!("{}-error-against-time", bench.id);
     let curves = std::iter::once(&plain).chain(&aided);
-    let title = format!("{scene}: error of final gather with and without aids");
+    let title = format!("Final gather with and without aids: {scene}");
     found.figures.push(chart(&id, &title, "CPU seconds", p.replicates, curves, Measured::seconds));
     Ok(Shown { scene, ratios })
 }
