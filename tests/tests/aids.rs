@@ -56,7 +56,7 @@ fn a_room_lit_through_a_gap_reads_as_by_paths() {
     ));
     let control = lab.measure::<1>(settings(Method::Path, seed(1914)), 0, 16, 1 << 20);
     for (number, (name, aids)) in BOTH.into_iter().enumerate() {
-        let outcome = lab.measure::<1>(aided(aids, 1912 + number as u32), 800_000, 16, 1 << 14);
+        let outcome = lab.measure::<1>(aided(aids, 1912 + number as u32), 3_200_000, 16, 1 << 15);
         for (cell, by_paths) in outcome.cells.iter().zip(&control.cells) {
             let truth = by_paths.value[0].mean().expect("light");
             let (noise, half) =

@@ -104,7 +104,10 @@ impl<const C: usize> Session<'_, C> {
             let mut mean = light.over(samples as f64);
             if self.settings.method == Method::Adaptive {
                 let passes = passes.max(number + 1);
+                let share = run.of_cells[index].correction(radii[index], passes, &run.common);
+                let corrected = mean.irradiance - mean.bias * share;
                 run.of_cells[index].learn(&mean, radii[index], passes, &run.common, self.largest_radius());
+                mean.irradiance = corrected;
             }
             mean.irradiance += probed;
             if let Some((irradiance, photons)) = maps.in_cells.of(index) {
