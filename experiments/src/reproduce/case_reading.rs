@@ -24,7 +24,7 @@ const LIKELY: f64 = 0.9;
 /// A run goes on until its half-width is this share of the wanted one: what is wanted goes by the answer, and the run by its own value.
 const MARGIN: f64 = 0.99;
 
-/// Photons counted, or points of a meter from which rays were followed, below which a reading is not judged.
+/// Photons counted, or points of a meter from which rays were followed and photons that they gathered, below which a reading is not judged.
 const FEWEST: f64 = 1000.0;
 
 /// How scenes are read.
@@ -227,7 +227,11 @@ fn attempt<const C: usize>(
         });
         // Few counts have no normal mean, and few points may all see the same: a reading that rests on them is not judged,
         // whatever its spread says.
-        let rests_on = if way == Way::Counting { result.photons } else { outcome.samples as f64 };
+        let rests_on = match way {
+            Way::Counting => result.photons,
+            Way::FinalGather if outcome.photons > 0 => outcome.samples.min(outcome.photons) as f64,
+            Way::FinalGather | Way::PathTracing => outcome.samples as f64,
+        };
         let rests_on_few = rests_on < FEWEST;
         Attempt {
             way,
