@@ -70,11 +70,6 @@ impl Options {
                 "--guided guides rays of each point and --cache sends none there; give one of them",
             ));
         }
-        if self.precompute && self.max_depth.or(scene.max_depth).is_some() {
-            return Err(Failure::usage(
-                "--precompute knows light of paths of any length; leave it out, or --max-depth and the scene's max_depth",
-            ));
-        }
         if self.cache && !scene.media.is_empty() {
             return Err(Failure::usage("--cache is not built yet for scenes with media; leave it out"));
         }
@@ -88,7 +83,7 @@ impl Options {
             direct,
             estimator: Estimator::new(kernel, area),
             gather_rays: self.gather_rays.unwrap_or(usual_gather_rays(self.cache)),
-            aids: Aids { cache: self.cache, guide: self.guided, precompute: self.precompute },
+            aids: Aids { cache: self.cache, guide: self.guided, precompute: false },
             draws: self.draws(method),
             seed: self.seed,
             limits: Limits {
@@ -142,7 +137,7 @@ impl Options {
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.
-    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 13] {
+    fn uses(&self) -> [(&'static str, bool, &'static [MethodName]); 12] {
         use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Progressive, Radius};
         [
             ("k", self.k.is_some(), &[Nearest]),
@@ -152,7 +147,6 @@ impl Options {
             ("gather-rays", self.gather_rays.is_some(), &[FinalGather]),
             ("cache", self.cache, &[FinalGather]),
             ("guided", self.guided, &[FinalGather]),
-            ("precompute", self.precompute, &[FinalGather]),
             ("direct photons", self.direct == Some(DirectName::Photons), &[Radius, Nearest, Adaptive, Progressive]),
             ("photons", self.photons.is_some(), &[FinalGather, Radius, Nearest, Adaptive, Progressive, Bins]),
             ("draws", self.draws.is_some(), &[FinalGather, Radius, Adaptive, Progressive, Bins]),

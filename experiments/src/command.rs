@@ -77,9 +77,6 @@ pub(crate) struct Options {
     /// Photons near a point guide final gather's rays to where the light comes from: less noise where it comes through a gap.
     #[arg(long)]
     pub(crate) guided: bool,
-    /// Final gather's map is read once a pass at places of its own, and rays take what the nearest of them read.
-    #[arg(long)]
-    pub(crate) precompute: bool,
     /// How photons leave their lamps: spread evenly over directions and places, or each by itself; [default: spread; independent for
     /// nearest and for saved maps, which know no other].
     #[arg(long, value_enum)]

@@ -1,7 +1,7 @@
 //! The command that gives the same bits again.
 
 use photonlab_gather::{AreaModel, Kernel};
-use photonlab_readout::{Aids, Direct, Method, Outcome, Settings, USUAL_PASSES};
+use photonlab_readout::{Direct, Method, Outcome, Settings, USUAL_PASSES};
 
 use crate::{
     chosen::usual_gather_rays,
@@ -93,8 +93,7 @@ pub(crate) fn fixed_command<const C: usize>(
     if let Some([width, height]) = options.size {
         option("size", format!("{width}x{height}"));
     }
-    let Aids { cache, guide, precompute } = settings.aids;
-    for (option, given) in [("--cache", cache), ("--guided", guide), ("--precompute", precompute)] {
+    for (option, given) in [("--cache", settings.aids.cache), ("--guided", settings.aids.guide)] {
         if given {
             words.push(option.into());
         }

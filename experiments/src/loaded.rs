@@ -113,8 +113,9 @@ pub(crate) fn wanted<const C: usize>(options: &Options, map: Option<&MapFile<C>>
 /// The schedule of a session, with its default count named on standard error.
 pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());
-    if session.settings.aids != Aids::default() && !session.reads_reflected() {
-        say!("note: nothing is reflected here; --cache, --guided, --precompute and --gather-rays change nothing");
+    let Aids { cache, guide, .. } = session.settings.aids;
+    if cache && !session.reads_reflected() || guide && !session.needs.indirect {
+        say!("note: nothing is reflected here; --cache, --guided and --gather-rays change nothing");
     }
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()

@@ -39,7 +39,6 @@ fn save<const C: usize>(arguments: &command::MapBuild, loaded: &Loaded) -> Resul
         ("gather-rays", options.gather_rays.is_some()),
         ("cache", options.cache),
         ("guided", options.guided),
-        ("precompute", options.precompute),
         ("map", options.map.is_some()),
         ("size", options.size.is_some()),
         ("spp", options.spp.is_some()),

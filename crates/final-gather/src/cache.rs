@@ -1,5 +1,6 @@
 //! The irradiance cache: reflected light, looked for at few places and told of all between.
 
+use photonlab_photometry::Colour;
 use photonlab_scene::World;
 
 use crate::{Light, Record, Site, Spot, zones::Zones};
@@ -76,10 +77,13 @@ impl<const C: usize> Sites<C> {
         }
         let [near, far] = sums.map(|(light, weights)| (weights > 0.0).then(|| light.over(weights)));
         let (mut light, far) = (near?, far?);
-        light.bias += match standing {
-            1 => light.irradiance * (last * last),
-            _ => far.irradiance - light.irradiance,
-        };
+        if standing == 1 {
+            // A bound has no sign: it adds to what the landings' own bias says.
+            let bound = light.irradiance * (last * last);
+            light.bias += Colour(std::array::from_fn(|c| bound.0[c].copysign(light.bias.0[c])));
+        } else {
+            light.bias += far.irradiance - light.irradiance;
+        }
         Some(light)
     }
 }
@@ -87,7 +91,6 @@ impl<const C: usize> Sites<C> {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use photonlab_photometry::Colour;
     use photonlab_sampling::Sight;
     use photonlab_scene::{SurfacePoint, read::read_scene_str};
 

@@ -23,7 +23,7 @@ pub const UNGUIDED: f64 = 0.5;
 /// the photons say, and wherever they start.
 pub struct Guide {
     /// Sums of the strata's probabilities, up to and with each.
-    sums: [f64; STRATA],
+    sums: [f32; STRATA],
 }
 
 impl Guide {
@@ -52,17 +52,19 @@ impl Guide {
         let mut sum = 0.0;
         let sums = shares.map(|share| {
             sum += UNGUIDED / STRATA as f64 + (1.0 - UNGUIDED) * share / all;
-            sum
+            sum as f32
         });
         Some(Self { sums })
     }
 
     /// A direction around a shading normal from two numbers, and the density of the cosine over that by which it was drawn.
     pub fn draw(&self, [first, second]: [f64; 2], shading: DVec3) -> (DVec3, f64) {
-        let stratum = self.sums.partition_point(|&sum| sum <= first * self.sums[STRATA - 1]).min(STRATA - 1);
-        let below = if stratum == 0 { 0.0 } else { self.sums[stratum - 1] };
-        let probability = self.sums[stratum] - below;
-        let within = ((first * self.sums[STRATA - 1] - below) / probability).clamp(0.0, 1.0);
+        let sum = |stratum: usize| f64::from(self.sums[stratum]);
+        let all = sum(STRATA - 1);
+        let stratum = self.sums.partition_point(|&sum| f64::from(sum) <= first * all).min(STRATA - 1);
+        let below = if stratum == 0 { 0.0 } else { sum(stratum - 1) };
+        let probability = (sum(stratum) - below) / all;
+        let within = ((first - below / all) / probability).clamp(0.0, 1.0);
         let sine_squared = ((stratum / COLUMNS) as f64 + within) / ROWS as f64;
         let azimuth = TAU * ((stratum % COLUMNS) as f64 + second) / COLUMNS as f64;
         let across = sine_squared.sqrt() * DVec2::from_angle(azimuth);

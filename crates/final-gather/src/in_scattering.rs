@@ -147,6 +147,7 @@ impl<const C: usize> Walk<'_, '_, C> {
             reads: 1.0,
             glints: 0.0,
             astray: 0.0,
+            remedied: 0.0,
         };
         self.landing.scattered.add(&light.weighted(self.weight));
     }

@@ -23,6 +23,8 @@ pub struct Light<const C: usize> {
     pub reads: f64,
     /// Times that the map was read at the point itself with a ball reaching over an edge or onto another surface.
     pub astray: f64,
+    /// Times that it was read so at an edge with a remedy, where `bias` bounds the bias and does not estimate it.
+    pub remedied: f64,
     /// Rays from diffuse points that met a lamp behind specular surfaces, by chance.
     pub glints: f64,
 }
@@ -39,6 +41,7 @@ impl<const C: usize> Light<C> {
         self.reads += other.reads;
         self.glints += other.glints;
         self.astray += other.astray;
+        self.remedied += other.remedied;
     }
 
     /// Weights flux quantities; the photons that were looked at stay.
@@ -53,6 +56,7 @@ impl<const C: usize> Light<C> {
             reads: self.reads,
             glints: self.glints,
             astray: self.astray,
+            remedied: self.remedied,
         }
     }
 
@@ -68,6 +72,7 @@ impl<const C: usize> Light<C> {
             reads: self.reads,
             glints: self.glints,
             astray: self.astray,
+            remedied: self.remedied,
         }
     }
 
@@ -77,6 +82,7 @@ impl<const C: usize> Light<C> {
             photons: self.photons / samples,
             reads: self.reads / samples,
             astray: self.astray / samples,
+            remedied: self.remedied / samples,
             glints: self.glints / samples,
             noise: self.noise / samples,
             noise_of_bias: self.noise_of_bias / samples,

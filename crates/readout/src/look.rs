@@ -292,6 +292,7 @@ impl<const C: usize> Look<'_, C> {
             reads: 1.0,
             glints: 0.0,
             astray: f64::from(u8::from(astray)),
+            remedied: f64::from(u8::from(found.remedied)),
         }
     }
 }

@@ -104,8 +104,10 @@ impl<const C: usize> Session<'_, C> {
             let mut mean = light.over(samples as f64);
             if self.settings.method == Method::Adaptive {
                 let passes = passes.max(number + 1);
+                // At an edge what is told bounds the bias, or means nothing.
+                let is_estimate = mean.astray == 0.0 && mean.remedied == 0.0;
                 let share = run.of_cells[index].correction(radii[index], passes, &run.common);
-                let corrected = mean.irradiance - mean.bias * share;
+                let corrected = mean.irradiance - mean.bias * if is_estimate { share } else { 0.0 };
                 run.of_cells[index].learn(&mean, radii[index], passes, &run.common, self.largest_radius());
                 mean.irradiance = corrected;
             }
@@ -124,7 +126,7 @@ impl<const C: usize> Session<'_, C> {
             let cell = &mut run.cells[index];
             cell.push(&mean, light.photons, dark);
             // Samples that a cache answers share its rays. Guided ones look as thinly as the unguided of them in places.
-            let guided = if self.settings.aids.guide { UNGUIDED } else { 1.0 };
+            let guided = if look.guides.get(index).is_some_and(Option::is_some) { UNGUIDED } else { 1.0 };
             let of_own =
                 guided * if caches { (f64::from(self.settings.gather_rays) / samples as f64).min(1.0) } else { 1.0 };
             cell.glints += of_own * light.glints;

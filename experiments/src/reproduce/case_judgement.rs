@@ -188,11 +188,13 @@ impl Reading<'_> {
 }
 
 impl Tally {
-    /// The misses of a scene are those of its second reading; those of the first that it does not repeat are named.
+    /// A scene's second reading decides; what the first alone has missed is named.
     pub(super) fn read_again(&mut self, again: Tally) {
         let is_repeated = |label: &String| again.wrong.iter().any(|other| other.ends_with(label.as_str()));
         self.unrepeated = std::mem::take(&mut self.wrong).into_iter().filter(|label| !is_repeated(label)).collect();
         self.wrong = again.wrong;
+        self.unread.extend(again.unread);
+        (self.farthest, self.widest) = (self.farthest.max(again.farthest), self.widest.max(again.widest));
     }
 
     pub(super) fn readings(&self) -> usize {

@@ -24,7 +24,7 @@ const LIKELY: f64 = 0.9;
 /// A run goes on until its half-width is this share of the wanted one: what is wanted goes by the answer, and the run by its own value.
 const MARGIN: f64 = 0.99;
 
-/// Photons counted, or points of a meter from which rays were followed and photons that they gathered, below which a reading is not judged.
+/// Photons counted, or points of a meter from which rays were followed, or photons sent for these to gather, below which a reading is not judged.
 const FEWEST: f64 = 1000.0;
 
 /// How scenes are read.

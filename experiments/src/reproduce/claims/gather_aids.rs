@@ -80,6 +80,9 @@ fn show<const C: usize>(
 }
 
 fn conclude(shown: &[Shown], precision: f64) -> (Verdict, String) {
+    if shown.iter().flat_map(|scene| scene.ratios).any(|ratio| ratio.is_none()) {
+        return (Verdict::NotMeasured, "the times without aids do not surround those with them".into());
+    }
     let is_narrow = |ratio: &Interval| ratio.half_width() <= precision * ratio.value;
     if !shown.iter().flat_map(|scene| scene.ratios).all(|ratio| ratio.is_some_and(|ratio| is_narrow(&ratio))) {
         return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
