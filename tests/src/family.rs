@@ -202,6 +202,27 @@ impl Family {
         );
     }
 
+    /// The same against a control by paths, which has to be finer, of a reading that says something: its 99 % half-width is less than a share
+    /// of the light.
+    ///
+    /// # Panics
+    /// If the control is not finer, or the reading says nothing.
+    pub fn beside_control<const C: usize>(
+        &mut self,
+        what: impl Display,
+        cell: &CellResult<C>,
+        by_paths: &CellResult<C>,
+        widest: f64,
+    ) {
+        let truth = by_paths.value[0].mean().expect("light");
+        let noise = by_paths.value[0].std_error().expect("passes");
+        let half = cell.half_width(0, 0.99).expect("light");
+        // The half-width is 2.9 standard errors and more: the control's noise is one of them at most.
+        assert!(noise < 0.35 * half, "{what}: the control is finer: {noise} {half}");
+        assert!(half < widest * truth, "{what}: it says something: {half} of {truth}");
+        self.reading(what, cell, 0, truth);
+    }
+
     /// Does a reading's own interval, bias bound included, hold the truth at the suite's confidence?
     pub fn reading<const C: usize>(&mut self, what: impl Display, cell: &CellResult<C>, channel: usize, truth: f64) {
         let value = cell.value[channel].mean().unwrap_or(f64::NAN);

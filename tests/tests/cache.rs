@@ -106,13 +106,7 @@ fn steps_shelves_and_thin_walls_do_not_mix() {
     for (meter, name) in ["table", "book", "floor", "back"].into_iter().enumerate() {
         for corner in [0, 15] {
             let [told, by_paths] = [&found, &control].map(|outcome| &outcome.cells[16 * meter + corner]);
-            let truth = by_paths.value[0].mean().expect("light");
-            let noise = by_paths.value[0].std_error().expect("passes");
-            let half = told.half_width(0, 0.99).expect("light");
-            // The half-width is 2.9 standard errors and more: the control's noise is one of them at most.
-            assert!(noise < 0.35 * half, "{name}: the control is finer: {noise} {half}");
-            assert!(half < 0.3 * truth, "{name}: it says something: {half} of {truth}");
-            family.reading(format!("{name} {corner}"), told, 0, truth);
+            family.beside_control(format!("{name} {corner}"), told, by_paths, 0.3);
         }
     }
     family.decide();
@@ -138,13 +132,7 @@ fn a_wall_on_a_floor_parts_its_light() {
     let control = lab.measure::<1>(settings(Method::Path, seed(1906)), 0, 16, 1 << 16);
     for number in [0, 6, 7, 8, 9, 15] {
         let [told, by_paths] = [&found, &control].map(|outcome| &outcome.cells[number]);
-        let truth = by_paths.value[0].mean().expect("light");
-        let noise = by_paths.value[0].std_error().expect("passes");
-        let half = told.half_width(0, 0.99).expect("light");
-        println!("{number}: {:?} +- {half} of {truth} +- {noise}", told.value[0].mean());
-        assert!(noise < 0.35 * half, "{number}: the control is finer: {noise} {half}");
-        assert!(half < 0.2 * truth, "{number}: it says something: {half} of {truth}");
-        family.reading(number, told, 0, truth);
+        family.beside_control(number, told, by_paths, 0.2);
     }
     family.decide();
 }

@@ -161,14 +161,15 @@ impl<const C: usize> Gatherer<'_, C> {
         let Some((maps, caustic)) = self.maps.and_then(|maps| Some((maps, maps.caustic?))) else {
             return Light::default();
         };
-        let mut light = self.read((&caustic, maps.kernel), at, sight, used, scratch);
+        let mut light: Light<C> = self.estimate((&caustic, maps.kernel), at, sight, used, scratch).into();
         let leaves = |radius: f64| self.world.ball_leaves_surface(at, CHECK * radius);
         if light.photons == 0.0 || !leaves(caustic.radius) {
             return light;
         }
         let smaller = SMALLER.iter().map(|share| share * caustic.radius).find(|&radius| !leaves(radius));
         if let Some(radius) = smaller {
-            return self.read((&MapWithRadius { radius, ..caustic }, maps.kernel), at, sight, used, scratch);
+            let smaller = MapWithRadius { radius, ..caustic };
+            return self.estimate((&smaller, maps.kernel), at, sight, used, scratch).into();
         }
         light.unresolved = light.irradiance;
         light
@@ -193,12 +194,11 @@ impl<const C: usize> Gatherer<'_, C> {
             return None;
         }
         let known = maps.precomputed.filter(|_| sight.is_plain() && self.limits.max_segments.is_none());
-        let told =
-            known.and_then(|known| known.near(&self.gather_point(&hit.point, sight), NEAR * surface.radius, scratch));
-        Some(
-            told.map(of_estimate)
-                .unwrap_or_else(|| self.read((&surface, maps.kernel), &hit.point, sight, used, scratch)),
-        )
+        let told = known.and_then(|known| {
+            known.near(&self.place(&hit.point, sight).gather_point(), NEAR * surface.radius, scratch)
+        });
+        let estimate = told.unwrap_or_else(|| self.estimate((&surface, maps.kernel), &hit.point, sight, used, scratch));
+        Some(estimate.into())
     }
 
     /// What the surface map's ball reads at a place, for [`Precomputed`]; `None` where the ball that checks it leaves its surface.
@@ -214,24 +214,11 @@ impl<const C: usize> Gatherer<'_, C> {
             return None;
         }
         let estimate = self.estimate((&surface, maps.kernel), at, sight, 0, scratch);
-        Some((self.gather_point(at, sight), estimate))
+        Some((self.place(at, sight).gather_point(), estimate))
     }
 
-    /// A surface point as maps know it.
-    pub fn gather_point(&self, at: &SurfacePoint, sight: &Sight<C>) -> GatherPoint {
-        let normal = sight.normals.geometric.as_vec3().to_array();
-        GatherPoint { position: self.world.stored(at.position), normal }
-    }
-
-    fn read(
-        &self,
-        (source, kernel): (&MapWithRadius<'_, PhotonMap<C>>, Kernel),
-        at: &SurfacePoint,
-        sight: &Sight<C>,
-        used: u32,
-        scratch: &mut Scratch,
-    ) -> Light<C> {
-        of_estimate(self.estimate((source, kernel), at, sight, used, scratch))
+    fn place<'p>(&'p self, at: &'p SurfacePoint, sight: &'p Sight<C>) -> Place<'p, C> {
+        Place { world: self.world, optics: self.optics, at, sight }
     }
 
     fn estimate(
@@ -247,17 +234,18 @@ impl<const C: usize> Gatherer<'_, C> {
         let bandwidth = Bandwidth::Radius(source.radius);
         // The ball stays on the surface, or what it reads does not count as resolved, so the disc is all there is.
         let estimator = Estimator::new(kernel, AreaModel::Disc);
-        let place = Place { world: self.world, optics: self.optics, at, sight };
-        place.estimate(source.map, bandwidth, estimator, &tests, scratch)
+        self.place(at, sight).estimate(source.map, bandwidth, estimator, &tests, scratch)
     }
 }
 
-fn of_estimate<const C: usize>(estimate: Estimate<C>) -> Light<C> {
-    Light {
-        irradiance: estimate.irradiance,
-        bias: estimate.bias,
-        photons: estimate.photons as f64,
-        reads: 1.0,
-        ..Light::default()
+impl<const C: usize> From<Estimate<C>> for Light<C> {
+    fn from(estimate: Estimate<C>) -> Self {
+        Light {
+            irradiance: estimate.irradiance,
+            bias: estimate.bias,
+            photons: estimate.photons as f64,
+            reads: 1.0,
+            ..Light::default()
+        }
     }
 }

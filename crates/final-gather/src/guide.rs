@@ -1,16 +1,15 @@
 //! Gather rays guided by the photons near their start.
 
-use std::f64::consts::TAU;
-
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use photonlab_gather::{GatherPoint, PhotonMap, Scratch};
 use photonlab_photometry::PathClass;
 use photonlab_sampling::warp::Frame;
 
+use crate::hemisphere::Strata;
+
 /// Strata of the hemisphere, equal by the cosine: rows by polar angle, columns by azimuth.
-const ROWS: usize = 4;
-const COLUMNS: usize = 8;
-const STRATA: usize = ROWS * COLUMNS;
+const STRATA: Strata = Strata { rows: 4, columns: 8 };
+const COUNT: usize = (STRATA.rows * STRATA.columns) as usize;
 
 /// Photons that are asked at each place.
 const PHOTONS: usize = 128;
@@ -23,7 +22,7 @@ pub const UNGUIDED: f64 = 0.5;
 /// the photons say, and wherever they start.
 pub struct Guide {
     /// Sums of the strata's probabilities, up to and with each.
-    sums: [f32; STRATA],
+    sums: [f32; COUNT],
 }
 
 impl Guide {
@@ -33,13 +32,13 @@ impl Guide {
         places: impl IntoIterator<Item = (GatherPoint, DVec3)>,
         scratch: &mut Scratch,
     ) -> Option<Self> {
-        let mut shares = [0.0; STRATA];
+        let mut shares = [0.0; COUNT];
         for (at, shading) in places {
             let frame = Frame::around(shading);
             map.each_nearest(&at, PHOTONS, scratch, |photon| {
                 let from = -DVec3::from(photon.direction.unpack().map(f64::from));
                 if photon.class == PathClass::Indirect
-                    && let Some(stratum) = stratum(frame.local(from))
+                    && let Some(stratum) = STRATA.number_of(frame.local(from))
                 {
                     shares[stratum] += photon.flux().mean();
                 }
@@ -51,7 +50,7 @@ impl Guide {
         }
         let mut sum = 0.0;
         let sums = shares.map(|share| {
-            sum += UNGUIDED / STRATA as f64 + (1.0 - UNGUIDED) * share / all;
+            sum += UNGUIDED / COUNT as f64 + (1.0 - UNGUIDED) * share / all;
             sum as f32
         });
         Some(Self { sums })
@@ -60,24 +59,14 @@ impl Guide {
     /// A direction around a shading normal from two numbers, and the density of the cosine over that by which it was drawn.
     pub fn draw(&self, [first, second]: [f64; 2], shading: DVec3) -> (DVec3, f64) {
         let sum = |stratum: usize| f64::from(self.sums[stratum]);
-        let all = sum(STRATA - 1);
-        let stratum = self.sums.partition_point(|&sum| f64::from(sum) <= first * all).min(STRATA - 1);
+        let all = sum(COUNT - 1);
+        let stratum = self.sums.partition_point(|&sum| f64::from(sum) <= first * all).min(COUNT - 1);
         let below = if stratum == 0 { 0.0 } else { sum(stratum - 1) };
         let probability = (sum(stratum) - below) / all;
         let within = ((first - below / all) / probability).clamp(0.0, 1.0);
-        let sine_squared = ((stratum / COLUMNS) as f64 + within) / ROWS as f64;
-        let azimuth = TAU * ((stratum % COLUMNS) as f64 + second) / COLUMNS as f64;
-        let across = sine_squared.sqrt() * DVec2::from_angle(azimuth);
-        let direction = Frame::around(shading).world(across.extend((1.0 - sine_squared).max(0.0).sqrt()));
-        (direction, 1.0 / (STRATA as f64 * probability))
+        let direction = STRATA.direction(stratum as u32, [within, second], &Frame::around(shading));
+        (direction, 1.0 / (COUNT as f64 * probability))
     }
-}
-
-/// The stratum of a unit vector in the frame; `None` below its horizon.
-fn stratum(local: DVec3) -> Option<usize> {
-    let row = (local.truncate().length_squared() * ROWS as f64) as usize;
-    let column = (local.truncate().to_angle().rem_euclid(TAU) / TAU * COLUMNS as f64) as usize;
-    (local.z > 0.0).then_some(row.min(ROWS - 1) * COLUMNS + column.min(COLUMNS - 1))
 }
 
 #[cfg(test)]
@@ -115,7 +104,9 @@ mod tests {
                 assert!((direction.length() - 1.0).abs() < 1e-12 && direction.z >= 0.0 && share <= 2.0 + 1e-9);
                 whole += share;
                 tilt += share * (direction.x + 2.0 * direction.z);
-                near += f64::from(u8::from(stratum(frame.local(direction)) == stratum(frame.local(from))));
+                near += f64::from(u8::from(
+                    STRATA.number_of(frame.local(direction)) == STRATA.number_of(frame.local(from)),
+                ));
             }
         }
         let count = f64::from(n * n);

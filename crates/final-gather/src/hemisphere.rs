@@ -9,8 +9,8 @@ use photonlab_sampling::warp::Frame;
 /// Strata of equal cosine-weighted solid angle: rows by polar angle, columns by azimuth.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Strata {
-    rows: u32,
-    columns: u32,
+    pub(crate) rows: u32,
+    pub(crate) columns: u32,
 }
 
 /// What one stratum's ray found.
@@ -46,6 +46,14 @@ impl Strata {
         let azimuth = TAU * (f64::from(column) + xi[1]) / f64::from(self.columns);
         let across = sine_squared.sqrt() * DVec2::from_angle(azimuth);
         frame.world(across.extend((1.0 - sine_squared).max(0.0).sqrt()))
+    }
+
+    /// The stratum of a unit vector in the frame's axes; `None` below its horizon.
+    pub(crate) fn number_of(&self, local: DVec3) -> Option<usize> {
+        let row = (local.truncate().length_squared() * f64::from(self.rows)) as u32;
+        let column = (local.truncate().to_angle().rem_euclid(TAU) / TAU * f64::from(self.columns)) as u32;
+        let number = row.min(self.rows - 1) * self.columns + column.min(self.columns - 1);
+        (local.z > 0.0).then_some(number as usize)
     }
 
     /// Gradients from the rays of all strata, in their order (Ward and Heckbert, "Irradiance gradients", 1992). A step to the side moves

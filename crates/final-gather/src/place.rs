@@ -22,6 +22,12 @@ pub struct Place<'w, const C: usize> {
 }
 
 impl<const C: usize> Place<'_, C> {
+    /// The point as maps know it: metres from the scene's middle.
+    pub fn gather_point(&self) -> GatherPoint {
+        let normal = self.sight.normals.geometric.as_vec3().to_array();
+        GatherPoint { position: self.world.stored(self.at.position), normal }
+    }
+
     /// The density estimate of what is seen there.
     pub fn estimate(
         &self,
@@ -31,8 +37,7 @@ impl<const C: usize> Place<'_, C> {
         tests: &Tests,
         scratch: &mut Scratch,
     ) -> Estimate<C> {
-        let normal = self.sight.normals.geometric.as_vec3().to_array();
-        let point = GatherPoint { position: self.world.stored(self.at.position), normal };
+        let point = self.gather_point();
         if self.sight.is_plain() {
             let around = Around { place: self, weigh: |_: &Photon<C>| 1.0, weighs: false };
             map.gather_among(&point, bandwidth, estimator, tests, &around, scratch)

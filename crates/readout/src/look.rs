@@ -182,7 +182,7 @@ impl<const C: usize> Look<'_, C> {
     }
 
     fn limits(&self) -> EyeLimits {
-        EyeLimits { max_segments: self.settings.limits.max_segments, max_specular: self.settings.limits.max_specular }
+        self.settings.eye_limits()
     }
 
     /// Looks around; reads caustic light where it starts unless somebody else does.
@@ -201,9 +201,12 @@ impl<const C: usize> Look<'_, C> {
     /// What the photons near a cell's first few points say of where its light comes from.
     pub(crate) fn guide(&self, cell: &Cell, number: usize, scratch: &mut Scratch) -> Option<Guide> {
         let map = self.maps.surface.as_ref()?;
-        let (gatherer, shift) = (self.gatherer(true), self.shift(number));
+        let shift = self.shift(number);
         let spots = (0..self.samples.min(GUIDED_BY)).filter_map(|sample| self.spot(cell, number, sample, &shift));
-        let place = |spot: Spot<C>| (gatherer.gather_point(&spot.at, &spot.sight), spot.sight.normals.shading);
+        let place = |Spot { at, sight, .. }: Spot<C>| {
+            let place = Place { world: self.world, optics: self.optics, at: &at, sight: &sight };
+            (place.gather_point(), sight.normals.shading)
+        };
         Guide::new(map, spots.map(place), scratch)
     }
 

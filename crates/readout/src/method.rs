@@ -1,5 +1,6 @@
 //! What to do: the method and its settings.
 
+use photonlab_final_gather::EyeLimits;
 use photonlab_gather::Estimator;
 use photonlab_sampling::{EmissionPlan, Lamps, PlanError, Sought};
 use photonlab_trace::{Classes, Limits};
@@ -99,7 +100,8 @@ pub struct Settings {
     pub limits: Limits,
 }
 
-/// What makes final gather's rays fewer, better or cheaper; the mean that they go to is the same but for a bias that is told.
+/// What makes final gather's rays fewer, better or cheaper. Guided rays go to the same mean; a cache errs by a bias that is told, precomputed irradiance by one
+/// that is told in part (see [`Precomputed`](photonlab_gather::Precomputed)).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Aids {
     /// Final gather looks around at few places alone and tells of all between: the paper's irradiance map.
@@ -133,6 +135,11 @@ impl Settings {
             Draws::Spread => plan.spread(self.seed, pass),
             Draws::Independent => plan,
         })
+    }
+
+    /// When a ray that looks for light gives up.
+    pub(crate) fn eye_limits(&self) -> EyeLimits {
+        EyeLimits { max_segments: self.limits.max_segments, max_specular: self.limits.max_specular }
     }
 
     /// Final-gather rays of each sample.

@@ -1,7 +1,7 @@
 //! Where final gather's map is read once, for all rays that land near.
 
 use glam::DVec3;
-use photonlab_final_gather::{EyeLimits, Gatherer};
+use photonlab_final_gather::Gatherer;
 use photonlab_gather::{Precomputed, Scratch};
 use photonlab_photometry::PackedDirection;
 use photonlab_sampling::{Optics, Sight};
@@ -53,12 +53,11 @@ impl<const C: usize> Session<'_, C> {
             Some(places) => places,
             None => self.places(optics, photons)?,
         };
-        let limits = self.settings.limits;
         let gatherer = Gatherer {
             world: self.world,
             optics,
             maps: Some(maps.gather_maps()),
-            limits: EyeLimits { max_segments: limits.max_segments, max_specular: limits.max_specular },
+            limits: self.settings.eye_limits(),
             looks_around: true,
             caustics_at_start: true,
             guide: None,
