@@ -130,7 +130,9 @@ impl Shown {
 fn conclude(cube: &Shown, cornell_box: &Shown, precision: f64) -> (Verdict, String) {
     let narrow = |shown: &Shown| shown.ratio(VIEWED).filter(|ratio| ratio.half_width() <= precision * ratio.value);
     let (Some(a), Some(b)) = (narrow(cube), narrow(cornell_box)) else {
-        return (Verdict::NotMeasured, "the intervals are wider than the definition asks".into());
+        let reason =
+            "the intervals are wider than the definition asks, or the direct view's times do not surround the cache's";
+        return (Verdict::NotMeasured, reason.into());
     };
     let (Some(edge), Some(viewed)) = (Shown::edge(&cube.cached), Shown::edge(&cube.others[VIEWED])) else {
         return (Verdict::NotMeasured, "the mean along the edges could not be measured".into());
