@@ -5,7 +5,7 @@
 //! symmetry needs.
 
 use super::header::{count, factor, flux_note, intensity, opening_note, range_note, rising};
-use super::text::{Lines, number, too_much};
+use super::text::{Lines, Short, number, too_much};
 use super::{IntensityTable, Luminaire, LuminaireError, Symmetry};
 
 pub(super) fn parse(bytes: &[u8]) -> Result<Luminaire, LuminaireError> {
@@ -91,8 +91,10 @@ impl Header {
             scale: conversion * lamps / 1000.0,
             flux: lamps * output_ratio.unwrap_or(0.0) / 100.0,
             opening: [length, width, height],
-            lamps_note: (sets > 1).then(|| format!("has {sets} sets of lamps; it is lit by the first, of {lamps} lm")),
-            tilt_note: (tilt != 0.0).then(|| format!("was measured at a tilt of {tilt} degrees, which is not undone")),
+            lamps_note: (sets > 1)
+                .then(|| format!("has {sets} sets of lamps; it is lit by the first, of {} lm", Short(lamps))),
+            tilt_note: (tilt != 0.0)
+                .then(|| format!("was measured at a tilt of {} degrees, which is not undone", Short(tilt))),
         })
     }
 }
@@ -105,7 +107,7 @@ fn symmetry(values: &mut Values) -> Result<Symmetry, LuminaireError> {
         3.0 => Symmetry::AboutC90,
         4.0 => Symmetry::Quadrant,
         other => {
-            let what = format!("the symmetry indicator is {other}");
+            let what = format!("the symmetry indicator is {}", Short(other));
             return Err(values.lines.error(what, "give a EULUMDAT file with a whole number from 0 to 4 there"));
         }
     })
@@ -118,7 +120,7 @@ fn lamp_flux(values: &mut Values, sets: usize) -> Result<f64, LuminaireError> {
     let flux = values.number(name)?;
     if !(flux > 0.0 && flux <= 1e12) {
         let mend = "give it in lm: the intensities are per 1000 lm of it";
-        return Err(values.lines.error(format!("{name} is {flux}"), mend));
+        return Err(values.lines.error(format!("{name} is {}", Short(flux)), mend));
     }
     values.skip(3, "the direct ratios")?;
     // A count that the file does not bear out ends with the file.

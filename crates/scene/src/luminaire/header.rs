@@ -2,7 +2,7 @@
 
 use std::fmt::Arguments;
 
-use super::text::Lines;
+use super::text::{Lines, Short};
 use super::{IntensityTable, LuminaireError};
 
 /// Largest relative difference between a file's flux and its table's integral that goes unsaid.
@@ -16,7 +16,7 @@ pub(super) fn count(number: f64, name: Arguments, lines: &Lines) -> Result<usize
     if number.fract() == 0.0 && (1.0..=MOST).contains(&number) {
         return Ok(number as usize);
     }
-    Err(lines.error(format!("{name} is {number}"), "give a whole number from 1 to 16777216"))
+    Err(lines.error(format!("{name} is {}", Short(number)), "give a whole number from 1 to 16777216"))
 }
 
 /// A factor of all intensities.
@@ -24,7 +24,7 @@ pub(super) fn factor(number: f64, name: Arguments, lines: &Lines) -> Result<f64,
     if (1e-9..=1e9).contains(&number) {
         return Ok(number);
     }
-    Err(lines.error(format!("{name} is {number}"), "give a positive number, 1 if it changes nothing"))
+    Err(lines.error(format!("{name} is {}", Short(number)), "give a positive number, 1 if it changes nothing"))
 }
 
 /// An intensity as the file writes it.
@@ -32,14 +32,14 @@ pub(super) fn intensity(number: f64, name: Arguments, lines: &Lines) -> Result<f
     if number >= 0.0 {
         return Ok(number);
     }
-    Err(lines.error(format!("{name} is {number}"), "no intensity is negative; write 0 for what is dark"))
+    Err(lines.error(format!("{name} is {}", Short(number)), "no intensity is negative; write 0 for what is dark"))
 }
 
 /// The angle after `before`.
 pub(super) fn rising(before: Option<f64>, number: f64, name: Arguments, lines: &Lines) -> Result<f64, LuminaireError> {
     match before {
         Some(before) if number <= before => {
-            let what = format!("{name} is {number} after {before}");
+            let what = format!("{name} is {} after {}", Short(number), Short(before));
             Err(lines.error(what, "put the angles in rising order, each once"))
         }
         _ => Ok(number),
@@ -51,15 +51,15 @@ pub(super) fn flux_note(table: &IntensityTable, stated: f64, whose: &str) -> Opt
     let flux = table.flux();
     let differs = stated > 0.0 && (flux / stated - 1.0).abs() > AGREES;
     differs.then(|| {
-        let share = 100.0 * flux / stated;
+        let [share, flux, stated] = [100.0 * flux / stated, flux, stated].map(Short);
         format!("emits {flux:.1} lm by its intensities, {share:.1} % of the {stated:.1} lm that it states of {whose}")
     })
 }
 
 /// What is to be said of a luminous opening, in metres.
 pub(super) fn opening_note(sides: [f64; 3]) -> Option<String> {
-    let [length, width, height] = sides.map(f64::abs);
-    (length.max(width).max(height) > 0.0).then(|| {
+    let [length, width, height] = sides.map(|side| Short(side.abs()));
+    (sides != [0.0; 3]).then(|| {
         format!(
             "has a luminous opening of {length:.3} x {width:.3} x {height:.3} m, which is not modelled: all light comes \
              from one point"
@@ -72,5 +72,6 @@ pub(super) fn range_note(table: &IntensityTable) -> Option<String> {
     let gamma = table.gamma();
     let (first, last) = (gamma[0], gamma[gamma.len() - 1]);
     let legal = [0.0, 90.0].contains(&first) && [90.0, 180.0].contains(&last);
+    let (first, last) = (Short(first), Short(last));
     (!legal).then(|| format!("has vertical angles from {first} to {last} degrees; it is dark outside them"))
 }

@@ -6,7 +6,7 @@
 //! by plane.
 
 use super::header::{count, factor, flux_note, intensity, opening_note, range_note, rising};
-use super::text::{Lines, Words};
+use super::text::{Lines, Short, Words};
 use super::{IntensityTable, Luminaire, LuminaireError, Symmetry};
 
 /// Metres in a foot, the unit of type 1.
@@ -104,7 +104,9 @@ impl Header {
             1.0 => FOOT,
             2.0 => 1.0,
             other => {
-                return Err(words.lines.error(format!("the type of units is {other}"), "give 1 (feet) or 2 (metres)"));
+                return Err(words
+                    .lines
+                    .error(format!("the type of units is {}", Short(other)), "give 1 (feet) or 2 (metres)"));
             }
         };
         let mut side = |name: &str| words.number(format_args!("the {name}")).map(|side| metres * side);
@@ -130,7 +132,7 @@ fn type_c(words: &mut Words) -> Result<(), LuminaireError> {
         1.0 => return Ok(()),
         2.0 => "is of photometric type B".to_owned(),
         3.0 => "is of photometric type A".to_owned(),
-        other => format!("has the photometric type {other}"),
+        other => format!("has the photometric type {}", Short(other)),
     };
     Err(words
         .lines
@@ -144,8 +146,10 @@ fn second_factor(words: &mut Words, second: SecondFactor) -> Result<(f64, Option
             Ok((factor(number, format_args!("the ballast-lamp photometric factor"), &words.lines)?, None))
         }
         SecondFactor::Reserved if number != 1.0 => {
-            let note =
-                format!("has {number} in the place that its version keeps for future use; it is no factor there");
+            let note = format!(
+                "has {} in the place that its version keeps for future use; it is no factor there",
+                Short(number)
+            );
             Ok((1.0, Some(note)))
         }
         SecondFactor::Reserved | SecondFactor::Code => Ok((1.0, None)),
@@ -174,10 +178,14 @@ fn symmetry(c: &[f64], lines: &Lines) -> Result<(Symmetry, Option<String>), Lumi
         _ => {
             let widest = c.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
             if !(first >= 0.0 && last < 360.0 && first + 360.0 - last <= 1.001 * widest) {
-                let what = format!("its horizontal angles run from {first} to {last} degrees");
+                let what = format!("its horizontal angles run from {} to {} degrees", Short(first), Short(last));
                 return Err(lines.error(what, "end them at 0, 90, 180 or 360 degrees, starting at 0"));
             }
-            let note = format!("has horizontal angles from {first} to {last} degrees; the first closes the turn");
+            let note = format!(
+                "has horizontal angles from {} to {} degrees; the first closes the turn",
+                Short(first),
+                Short(last)
+            );
             return Ok((Symmetry::None, Some(note)));
         }
     };

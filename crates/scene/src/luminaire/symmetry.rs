@@ -1,6 +1,7 @@
 //! Tables that state a part of all directions, unfolded to all of them.
 
 use super::LuminaireError;
+use super::text::Short;
 
 /// Which half-planes (C-planes) a table states, and how they stand for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +48,7 @@ impl Symmetry {
     }
 
     fn refuse(self, count: usize, first: f64, last: f64) -> LuminaireError {
-        let what = format!("has {count} horizontal angles from {first} to {last} degrees");
+        let what = format!("has {count} horizontal angles from {} to {} degrees", Short(first), Short(last));
         let mend = match self {
             Symmetry::None => "without symmetry give at least two from 0 to 360",
             Symmetry::Rotational => "with rotational symmetry give one",

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use super::text::Short;
 use super::{LuminaireError, Symmetry};
 
 /// Most cells of a table: steps of a tenth of a degree fit.
@@ -62,7 +63,7 @@ impl IntensityTable {
             return wrong("has too many angles".into(), "give a table with wider steps");
         }
         if let Some(bad) = intensity.iter().find(|x| !(0.0..=LARGEST).contains(*x)) {
-            return wrong(format!("has an intensity of {bad} cd"), "give intensities between 0 and 1e30 cd");
+            return wrong(format!("has an intensity of {} cd", Short(*bad)), "give intensities between 0 and 1e30 cd");
         }
         let planes: Vec<&[f64]> = intensity.chunks(gamma.len()).collect();
         let (c, planes) = symmetry.unfold(c, &planes)?;
@@ -163,7 +164,8 @@ impl Cell {
         let share = |[low, high]: [f64; 2], x: f64| ((x - low) / (high - low)).clamp(0.0, 1.0);
         let (u, v) = (share(self.c, c), share(self.gamma, gamma));
         let along = |ends: [f64; 2]| (1.0 - v) * ends[0] + v * ends[1];
-        (1.0 - u) * along(self.corners[0]) + u * along(self.corners[1])
+        // The mean of equal corners may round to more than they are, which no bound by the brightest allows.
+        ((1.0 - u) * along(self.corners[0]) + u * along(self.corners[1])).min(self.brightest())
     }
 
     /// The largest intensity in it, cd.

@@ -1,6 +1,6 @@
 //! Lines and numbers of a luminaire file, whatever code its words are in.
 
-use std::fmt::Arguments;
+use std::fmt::{self, Arguments};
 use std::slice::Split;
 
 use crate::read::quote;
@@ -58,6 +58,20 @@ pub(super) fn number(word: &[u8], name: Arguments) -> Result<f64, (String, &'sta
         // Adding zero turns -0 into 0.
         Some(number) if number.is_finite() => Ok(number + 0.0),
         _ => Err((format!("{name} is {}, no finite number", quote(&String::from_utf8_lossy(word))), "give one")),
+    }
+}
+
+/// A number in a sentence: in powers of ten where its digits would fill lines.
+pub(super) struct Short(pub(super) f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = self;
+        if *number == 0.0 || (1e-5..1e16).contains(&number.abs()) {
+            fmt::Display::fmt(number, f)
+        } else {
+            fmt::LowerExp::fmt(number, f)
+        }
     }
 }
 

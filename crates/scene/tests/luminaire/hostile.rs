@@ -50,6 +50,9 @@ fn answered(bytes: &[u8], format: Format) -> Result<(), TestCaseError> {
     match parse_luminaire(bytes, format) {
         Ok(luminaire) => {
             let table = &luminaire.table;
+            for note in &luminaire.notes {
+                prop_assert!(!note.contains('\n') && note.len() < 500, "{}", note);
+            }
             prop_assert!(table.flux().is_finite() && table.flux() > 0.0);
             for step in 0..50 {
                 let intensity = table.intensity(13.7 * f64::from(step), 3.6 * f64::from(step));

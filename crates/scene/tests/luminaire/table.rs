@@ -23,6 +23,23 @@ fn even_light_is_4_pi_of_its_intensity() {
     assert!((table.flux() / (2000.0 * PI) - 1.0).abs() < 1e-13, "half of it with 0 to 90 degrees alone");
 }
 
+/// (1 - v) x + v x may round to more than x: choices by the brightest would exceed their bound.
+#[test]
+fn no_intensity_exceeds_the_brightest() {
+    let mut rounded_up = 0;
+    for i in 0..200 {
+        let x = 30.886801709122555 + 0.37 * f64::from(i);
+        let table = rotational(&[0.0, 45.0, 90.0], &[x, x, 0.5 * x]);
+        for step in 0..200 {
+            let gamma = 0.226 * f64::from(step);
+            let v = gamma / 45.0;
+            rounded_up += usize::from((1.0 - v) * x + v * x > x);
+            assert!(table.intensity(13.7, gamma) <= table.brightest(), "{x} at {gamma}");
+        }
+    }
+    assert!(rounded_up > 100, "the test meets what it is about: {rounded_up}");
+}
+
 /// In steps of h the cosine's broken line integrates to 2 pi ((1 - cos h) / (h tan h) + 1 - sin h / h): the hat function of
 /// an inner angle weighs its sine by 2 (1 - cos h) / h, that of nadir is 1 - sin h / h, and the sines of all twice the angles
 /// add up to 1 / tan h.
