@@ -10,11 +10,6 @@ pub(crate) fn peak_bytes() -> Option<u64> {
     Some(kilobytes * 1024)
 }
 
-/// Lets the largest memory begin anew from what is held now, where the system can; else it goes on counting what came before.
-pub(crate) fn forget_peak() {
-    let _ = fs::write("/proc/self/clear_refs", "5");
-}
-
 /// Starts the thread pool; zero threads means all cores.
 pub(crate) fn start_threads(threads: Option<u32>) -> anyhow::Result<()> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0) as usize);

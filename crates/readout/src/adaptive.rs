@@ -62,18 +62,24 @@ impl CellRadius {
         self.radius.unwrap_or(first)
     }
 
-    /// The share of the bias told by the next pass, read with `radius`, that is to be taken off its light; 0 before anything was read.
+    /// The share of the bias told by the next pass, read with `radius`, that is to be taken off its light.
     ///
     /// Light less the bias that the ball of twice the radius tells is an estimate of fourth order. Its noise is larger: of discs the
     /// difference has a twelfth of their variance and is bound to it by minus a quarter, so that a share `w` leaves
     /// `(1 - w)^2 B^2 + s^2 (1 + w / 2 + w^2 / 12)`, least at `w = (B^2 - s^2 / 4) / (B^2 + s^2 / 12)`, for a bias `B` and a variance `s^2` of the
-    /// mean of all passes. The share goes by earlier passes alone, so that no pass's noise chooses it.
+    /// mean of all passes. The share goes by earlier passes alone, so that no pass's noise chooses it; and by no less a bias than all
+    /// cells show together, since a bias that is taken off where it is large alone, at peaks, and left between them would move the mean
+    /// over the cells, which balls of one radius keep.
     pub(crate) fn correction(&self, radius: f64, passes: u64, common: &Common) -> f64 {
-        if self.weight <= 0.0 {
-            return 0.0;
-        }
-        let variance = self.noise / (self.weight * radius * radius * passes as f64);
-        let bias_squared = self.bend_squared(common) * radius.powi(4);
+        let (bend_squared, noise) = if self.weight > 0.0 {
+            let light = self.light / self.weight;
+            let of_all = common.bend_squared * light * light;
+            (self.bend_squared(common).max(of_all), self.noise / (self.weight * radius * radius))
+        } else {
+            // Of a light of 1, if nothing of this cell is known.
+            (common.bend_squared, common.spread / common.photons)
+        };
+        let (variance, bias_squared) = (noise / passes as f64, bend_squared * radius.powi(4));
         let share = (bias_squared - variance / 4.0) / (bias_squared + variance / 12.0);
         if share.is_finite() { share.max(0.0) } else { 0.0 }
     }
@@ -145,7 +151,7 @@ mod tests {
     fn the_bias_is_taken_off_as_far_as_its_noise_lets_it() {
         let common = Common::default();
         let mut cell = CellRadius::default();
-        assert_eq!(cell.correction(0.1, 10, &common), 0.0);
+        assert_eq!(cell.correction(0.1, 10, &common), 0.0, "nothing is known of any cell");
         let (b, v, passes) = (3.0, 0.002, 20);
         for _ in 0..30 {
             cell.learn(&found(b * 0.01, v / 0.01), 0.1, passes, &common, 10.0);

@@ -9,6 +9,7 @@ use rayon::prelude::*;
 
 use crate::{
     Cell, Direct, Draws, ErrorOver, Method, ReadError, Schedule, Session, Source,
+    adaptive::CellRadius,
     bins::Bins,
     cached::Cache,
     look::{Look, Sample},
@@ -85,7 +86,10 @@ impl<const C: usize> Session<'_, C> {
         if let (Method::Adaptive, Some(pilots)) = (self.settings.method, &pilots) {
             self.learn_from_pilots(run, &look, cells, (passes, surface_radius), pilots);
         }
-        let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(surface_radius)).collect();
+        let radius = |cell: &CellRadius| {
+            if self.settings.method == Method::Adaptive { cell.get(surface_radius) } else { surface_radius }
+        };
+        let radii: Vec<f64> = run.of_cells.iter().map(radius).collect();
         let caches = self.caches();
         let sites: &Sites<C> =
             run.sites.get_or_insert_with(|| if caches { self.sites(&look, cells) } else { Sites::default() });
@@ -102,7 +106,7 @@ impl<const C: usize> Session<'_, C> {
         let probed = self.probes(cells, optics, number as u32, samples);
         for ((index, Sample { mut light, dark }), probed) in found.into_iter().enumerate().zip(probed) {
             let mut mean = light.over(samples as f64);
-            if self.settings.method == Method::Adaptive {
+            if self.takes_off_bias() {
                 let passes = passes.max(number + 1);
                 // At an edge what is told bounds the bias, or means nothing.
                 let is_estimate = mean.astray == 0.0 && mean.remedied == 0.0;
@@ -137,6 +141,11 @@ impl<const C: usize> Session<'_, C> {
         run.passes += 1;
         run.samples += samples;
         Ok(())
+    }
+
+    /// True if each cell learns of its bias, and what it has learnt is taken off: where radii are the program's own.
+    fn takes_off_bias(&self) -> bool {
+        matches!(self.settings.method, Method::Adaptive | Method::Radius { radius: None })
     }
 
     /// Of so many samples in one pass one tells its bias: all do where every reading has an error bar to be signed.

@@ -15,7 +15,9 @@ use crate::{
 };
 
 /// Points that are looked at, spread over the cells; of more cells, some.
-const POINTS: usize = 4096;
+const POINTS: usize = 8192;
+/// Of a cell at least, if a pass has as many: the mean over a cell that is wider than a ball is less noisy than a point of it.
+const POINTS_OF_CELL: usize = 4;
 /// And points whose balls are asked whether they reach over edges.
 const POINTS_ASTRAY: usize = 1024;
 /// Fewer cells than this are not looked at themselves.
@@ -26,6 +28,11 @@ const LOOKS: usize = 8;
 const MOST_PHOTONS: f64 = 1000.0;
 /// This share of the bias's own variance stays in its square, so that flat light does not ask for a radius without end.
 const LEFT: f64 = 0.05;
+
+/// A radius that all cells share is wider by this than the best of plain estimates: its bias is taken off as far as its noise lets it. With 1,
+/// 1.2 and 1.4 a ball lens's caustic had 1.20, 1.02 and 0.93 % of error in 2.2 to 2.4 s, one with a narrow focus 2.42, 2.26 and 2.27 %;
+/// all light of the first, whose shadow's edge no correction helps, 5.99 and, with 1.3, 6.33 %.
+const WIDER: f64 = 1.2;
 
 /// By so much the share of balls that reach over edges may grow where every reading is to be certified.
 const ASTRAY: f64 = 0.001;
@@ -87,8 +94,11 @@ impl<const C: usize> Session<'_, C> {
         let room = (MOST_PHOTONS / seen.photons_in_ball().max(f64::MIN_POSITIVE)).sqrt();
         let last = (radius * best.powf(1.0 / (2.0 * power + fall)).min(room)).min(self.largest_radius().max(first));
         // The radii of cells do not shrink while passes are as many as were expected.
-        let shrinks = self.settings.method != Method::Adaptive;
-        let mut widest = if shrinks { last * widening(passes, power, fall) } else { last };
+        let mut widest = match self.settings.method {
+            Method::Adaptive => last,
+            Method::Radius { .. } => WIDER * last * widening(passes, power, fall),
+            _ => last * widening(passes, power, fall),
+        };
         // A reading that goes astray has no error bar: of single readings none is to be lost for less noise in the others.
         if self.error_over == ErrorOver::Worst {
             let astray = |radius| share_astray(&with(looks[0], radius), cells, radius);
@@ -123,8 +133,9 @@ fn see<const C: usize>(looks: &[Look<'_, C>; 2], places: &Places<'_, C>, radius:
 
 /// The same in cells: all, or some of very many.
 fn see_in_cells<const C: usize>(looks: &[Look<'_, C>; 2], cells: &[Cell], radius: f64) -> Seen {
-    let step = cells.len().div_ceil(POINTS).max(1);
-    let points = (POINTS / cells.len().max(1)).clamp(1, looks[0].samples as usize);
+    let most = looks[0].samples as usize;
+    let points = (POINTS / cells.len().max(1)).clamp(POINTS_OF_CELL.min(most), most);
+    let step = (cells.len() * points).div_ceil(POINTS).max(1);
     let sums: Vec<_> = (0..cells.len())
         .into_par_iter()
         .step_by(step)

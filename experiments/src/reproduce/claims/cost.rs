@@ -1,5 +1,8 @@
 //! `cost`: CPU time and memory against photons and rays.
 
+use std::{fs, path::Path, process::Command};
+
+use anyhow::Context as _;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Interval, Point, Record, Replicates, Row, Series, SeriesKind, Verdict,
 };
@@ -19,6 +22,8 @@ use crate::{
 };
 
 const SCENE: &str = include_str!("../../../scenes/cornell-box.xml");
+/// Its file, for commands.
+const FILE: &str = "cornell-box.xml";
 /// Pixels across and down.
 const SIZE: u32 = 12;
 /// Confidence of each interval.
@@ -56,21 +61,23 @@ struct Growth {
 struct Cost {
     count: u64,
     seconds: Vec<f64>,
-    /// Largest of the replicates, where the system tells.
+    /// Of a command that does nothing else, where the system tells.
     bytes: Option<u64>,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let mut lab = Lab::new("cornell-box.xml", SCENE, &[])?;
+    let mut lab = Lab::new(FILE, SCENE, &[])?;
+    let folder = context.folder("scenes")?;
+    fs::write(folder.join(FILE), SCENE)?;
     lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
     let pixels = u64::from(SIZE * SIZE);
     let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
     let of_photons: Vec<_> = p.photons.iter().map(|&photons| (photons, photons, p.points)).collect();
     let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_for_rays, rays.div_ceil(pixels))).collect();
     let growths = [
-        Growth::measure("photons", &lab, &of_photons, &p, &mut found)?,
-        Growth::measure("rays", &lab, &of_rays, &p, &mut found)?,
+        Growth::measure("photons", (&lab, &folder), &of_photons, &p, &mut found)?,
+        Growth::measure("rays", (&lab, &folder), &of_rays, &p, &mut found)?,
     ];
     let mut narrow = true;
     for growth in &growths {
@@ -82,11 +89,10 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
 }
 
 impl Growth {
-    /// Counts, each with the photons and the points of a pixel that make it. The replicates of one count follow each other, from few to many,
-    /// so that what the process has held before is less than what it holds now.
+    /// Counts, each with the photons and the points of a pixel that make it.
     fn measure(
         of: &'static str,
-        lab: &Lab,
+        (lab, folder): (&Lab, &Path),
         counts: &[(u64, u64, u64)],
         p: &Parameters,
         found: &mut Findings,
@@ -94,7 +100,7 @@ impl Growth {
         let cells = Cell::of_sensor(&lab.world.scene, 0);
         let mut points = Vec::new();
         for &(count, photons, samples) in counts {
-            system::forget_peak();
+            let bytes = peak_bytes(folder, photons, samples, p.seed)?;
             let mut seconds = Vec::new();
             for seed in p.seed..p.seed + p.replicates {
                 let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
@@ -102,7 +108,6 @@ impl Growth {
                 lab.read::<3>(&cells, Strategy::FINAL_GATHER.settings(seed), &wanted, CONFIDENCE)?;
                 seconds.push(clock.seconds());
             }
-            let bytes = system::peak_bytes();
             for (seed, &spent) in (p.seed..).zip(&seconds) {
                 found.rows.push(cost_row(of, count, seed, spent, bytes));
             }
@@ -144,6 +149,25 @@ impl Growth {
         }
         narrow
     }
+}
+
+/// Largest resident memory of the command that makes one such picture and ends: within one process the allocator keeps what earlier
+/// pictures have freed, in pieces, and that would be told as a pass's need.
+fn peak_bytes(folder: &Path, photons: u64, samples: u64, seed: u64) -> anyhow::Result<Option<u64>> {
+    let image = folder.join("cornell-box.exr");
+    let (threads, size) = (system::threads(), format!("{SIZE}x{SIZE}"));
+    let ended = Command::new(std::env::current_exe()?)
+        .arg("render")
+        .arg(folder.join(FILE))
+        .arg("-o")
+        .arg(&image)
+        .args(["--method", "final-gather", "--draws", "independent", "--size", &size])
+        .args(["--photons", &photons.to_string(), "--spp", &samples.to_string()])
+        .args(["--seed", &seed.to_string(), "--threads", &threads.to_string()])
+        .output()?;
+    anyhow::ensure!(ended.status.success(), "the picture failed: {}", String::from_utf8_lossy(&ended.stderr).trim());
+    let told = fs::read_to_string(image.with_extension("photonlab.json")).context("the picture's description")?;
+    Ok(serde_json::from_str::<serde_json::Value>(&told)?["peak_bytes"].as_u64())
 }
 
 fn conclude(growths: &[Growth], narrow: bool, found: &Findings) -> (Verdict, String) {
@@ -200,7 +224,7 @@ fn memory(growths: &[Growth]) -> FigureData {
     FigureData {
         id: "memory".into(),
         title: "Final gather in the Cornell box: memory against photons and rays".into(),
-        caption: "Largest resident memory of the process, where the system tells it.".into(),
+        caption: "Largest resident memory of a command that makes one picture, where the system tells it.".into(),
         x: Axis::log("photons, or rays, in all"),
         y: Axis::log("MiB"),
         series: growths.iter().map(of).collect(),

@@ -31,11 +31,12 @@ const SHORT: f64 = 0.01;
 /// Most of the median half-width over the RMS error.
 const WIDEST: f64 = 3.0;
 
-const METHODS: [(&str, Way); 6] = [
+const METHODS: [(&str, Way); 7] = [
     ("final gather", Way::plain(Method::FinalGather { radius: None })),
     ("irradiance cache", Way { cache: true, ..Way::plain(Method::FinalGather { radius: None }) }),
     ("fixed radius", Way::plain(Method::Radius { radius: None })),
     ("k nearest", Way::plain(Method::Nearest { k: None })),
+    ("adaptive", Way::plain(Method::Adaptive)),
     ("path tracing", Way::plain(Method::Path)),
     ("photons counted", Way::plain(Method::Bins)),
 ];
