@@ -57,8 +57,8 @@ fn an_image_is_not_turned() {
     assert!(apart > 1.5, "the two lamps differ enough to be told apart: {apart}");
 }
 
-/// Photons alone, whose radius nobody names: no more error than with the best of five radii within a tenth, and so with radii that
-/// pixels find for themselves. Half of the best radius has half as much error again.
+/// Photons alone, whose radius nobody names: no more error than with the best of five radii, and so with radii that pixels find for
+/// themselves, since bias is taken off of both. Half of the best radius has half as much error again.
 #[test]
 fn the_radius_that_a_run_finds_is_as_good_as_the_best() {
     let error = |method: Method| {
@@ -69,7 +69,7 @@ fn the_radius_that_a_run_finds_is_as_good_as_the_best() {
     let best = fixed.into_iter().fold(f64::INFINITY, f64::min);
     let found = [Method::Radius { radius: None }, Method::Adaptive].map(error);
     println!("fixed radii {fixed:.4?}, found {found:.4?}");
-    assert!(found.iter().all(|&error| error <= 1.1 * best), "{found:?}, the best of fixed radii {best}");
+    assert!(found.iter().all(|&error| error <= best), "{found:?}, the best of fixed radii {best}");
     assert!(fixed[0] > 1.5 * best, "radii matter: {fixed:?}");
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Run<const C: usize> {
     pub(crate) guides: Option<Vec<Option<Guide>>>,
     /// Where final gather's map is read once a pass, chosen before the first.
     pub(crate) places: Option<Vec<PlaceOnSide<C>>>,
-    /// Each cell's own radius, for [`Method::Adaptive`].
+    /// What each cell has learnt of its bias, where that is taken off, and for [`Method::Adaptive`] its own radius.
     pub(crate) of_cells: Vec<CellRadius>,
     /// What all cells have shown before the first pass is read, for it and other direct views that nobody has tuned.
     pub(crate) common: Common,
