@@ -22,8 +22,9 @@ use crate::{
 };
 
 const SCENE: &str = include_str!("../../../scenes/cornell-box.xml");
-/// Its file, for commands.
+/// Its file, for commands, with a meter on the floor that has as many cells as the picture has pixels: readings tell their memory.
 const FILE: &str = "cornell-box.xml";
+const METER: &str = r#"<sensor type="irradiancemeter"><film type="hdrfilm"><integer name="width" value="12"/><integer name="height" value="12"/></film></sensor></shape>"#;
 /// Pixels across and down.
 const SIZE: u32 = 12;
 /// Confidence of each interval.
@@ -69,7 +70,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
     let mut lab = Lab::new(FILE, SCENE, &[])?;
     let folder = context.folder("scenes")?;
-    fs::write(folder.join(FILE), SCENE)?;
+    fs::write(folder.join(FILE), SCENE.replacen("</shape>", METER, 1))?;
     lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
     let pixels = u64::from(SIZE * SIZE);
     let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
@@ -151,23 +152,19 @@ impl Growth {
     }
 }
 
-/// Largest resident memory of the command that makes one such picture and ends: within one process the allocator keeps what earlier
+/// Largest resident memory of the command that reads as many cells and ends: within one process the allocator keeps what earlier
 /// pictures have freed, in pieces, and that would be told as a pass's need.
 fn peak_bytes(folder: &Path, photons: u64, samples: u64, seed: u64) -> anyhow::Result<Option<u64>> {
-    let image = folder.join("cornell-box.exr");
-    let (threads, size) = (system::threads(), format!("{SIZE}x{SIZE}"));
     let ended = Command::new(std::env::current_exe()?)
-        .arg("render")
+        .arg("measure")
         .arg(folder.join(FILE))
-        .arg("-o")
-        .arg(&image)
-        .args(["--method", "final-gather", "--draws", "independent", "--size", &size])
+        .args(["--json", "--method", "final-gather", "--draws", "independent"])
         .args(["--photons", &photons.to_string(), "--spp", &samples.to_string()])
-        .args(["--seed", &seed.to_string(), "--threads", &threads.to_string()])
+        .args(["--seed", &seed.to_string(), "--threads", &system::threads().to_string()])
         .output()?;
-    anyhow::ensure!(ended.status.success(), "the picture failed: {}", String::from_utf8_lossy(&ended.stderr).trim());
-    let told = fs::read_to_string(image.with_extension("photonlab.json")).context("the picture's description")?;
-    Ok(serde_json::from_str::<serde_json::Value>(&told)?["peak_bytes"].as_u64())
+    let told = serde_json::from_slice::<serde_json::Value>(&ended.stdout)
+        .with_context(|| format!("the command's reading: {}", String::from_utf8_lossy(&ended.stderr).trim()))?;
+    Ok(told["peak_bytes"].as_u64())
 }
 
 fn conclude(growths: &[Growth], narrow: bool, found: &Findings) -> (Verdict, String) {
@@ -224,7 +221,8 @@ fn memory(growths: &[Growth]) -> FigureData {
     FigureData {
         id: "memory".into(),
         title: "Final gather in the Cornell box: memory against photons and rays".into(),
-        caption: "Largest resident memory of a command that makes one picture, where the system tells it.".into(),
+        caption: "Largest resident memory of a command that reads as many cells and ends, where the system tells it."
+            .into(),
         x: Axis::log("photons, or rays, in all"),
         y: Axis::log("MiB"),
         series: growths.iter().map(of).collect(),
