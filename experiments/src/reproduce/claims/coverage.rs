@@ -246,7 +246,7 @@ fn figure(
             label: (*name).into(),
             kind: SeriesKind::Measured,
             points: (0..LEVELS.len())
-                .filter_map(|level| point(&parts[1], level, 0.12 * (number as f64 - 2.0)))
+                .filter_map(|level| point(&parts[1], level, 0.1 * (number as f64 - 3.0)))
                 .collect(),
         })
         .filter(|series| !series.points.is_empty())
