@@ -80,13 +80,13 @@ def joins(pixels_across):
     """True where a pixel of the Cornell box shows a wall within 6 cm of another, by its camera and its boxes' outlines."""
     half = np.tan(np.radians(39.3077 / 2))
     place = (np.arange(pixels_across) + 0.5) / pixels_across * 2 - 1
-    across, down = np.meshgrid(place * half, -place * half)
-    # From z = 3.9 along (across, down, -1): the distance along z to the walls, the floor or ceiling and the back.
-    far = np.minimum(1 / np.maximum(np.maximum(abs(across), abs(down)), 1e-9), 4.9)
-    at = np.stack([across * far, down * far, 3.9 - far], axis=-1)
+    across, up = np.meshgrid(place * half, -place * half)
+    # From z = 3.9 along (across, up, -1): the distance along z to the walls, the floor or ceiling and the back.
+    far = np.minimum(1 / np.maximum(np.maximum(abs(across), abs(up)), 1e-9), 4.9)
+    at = np.stack([across * far, up * far, 3.9 - far], axis=-1)
     inside = far > 2.9
     gaps = np.sort(np.stack([1 - abs(at[..., 0]), 1 - abs(at[..., 1]), at[..., 2] + 1], axis=-1), axis=-1)
-    boxes = (down < 0.25) & (abs(across) < 0.33) & (down > -0.33)
+    boxes = (abs(across) < 0.21) & (-0.31 < up) & (up < 0.07)
     return inside & (gaps[..., 1] < 0.06) & ~boxes
 
 
