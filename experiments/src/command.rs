@@ -45,7 +45,8 @@ pub(crate) struct SceneArguments {
 /// How light is found, shared by `measure`, `render` and `map build`.
 #[derive(Args, Clone)]
 pub(crate) struct Options {
-    /// How light at a point is found; progressive is radius without --radius: tuned, and shrinking from pass to pass.
+    /// How light at a point is found; progressive is radius without --radius: tuned, shrinking from pass to pass, and with the bias taken off
+    /// that wider balls tell (a radius of your own is read plainly).
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) method: MethodName,
     /// Where direct light comes from when the map is read at the point itself [default: sampled].

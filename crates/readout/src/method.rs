@@ -15,11 +15,12 @@ pub enum Method {
     },
     /// From the map at the point: all photons in a ball.
     Radius {
-        /// Metres; `None` takes it from the photons of two passes and lets it shrink from pass to pass.
+        /// Metres, read plainly; `None` takes it from the photons of two passes, lets it shrink from pass to pass, and takes the told bias off
+        /// as far as earlier passes have shown that it stands above its noise.
         radius: Option<f64>,
     },
     /// From the map at the point: all photons in a ball whose radius each cell finds for itself, from the bias and noise of
-    /// earlier passes.
+    /// earlier passes; the told bias is taken off likewise.
     Adaptive,
     /// By looking around once and gathering where the rays land.
     FinalGather {

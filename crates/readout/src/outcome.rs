@@ -22,7 +22,8 @@ const OF_BIAS_NOISE: f64 = 0.6;
 pub struct CellResult<const C: usize> {
     /// The cell's value in each pass, per channel.
     pub value: [Replicates; C],
-    /// The estimated kernel bias in each pass, per channel.
+    /// The kernel bias of a plain reading in each pass, per channel: what bounds it. Of a radius that the program chooses some of it is taken off
+    /// `value` already.
     pub bias: [Replicates; C],
     /// Mean of the part gathered across an edge or onto another surface.
     pub unresolved: [Replicates; C],
@@ -120,9 +121,12 @@ impl<const C: usize> CellResult<C> {
         if passes > 0.0 { GRAIN * self.grain[channel] / (passes * passes) } else { 0.0 }
     }
 
-    /// True if no light was found and darkness was not proved.
+    /// True if no light was found and darkness was not proved. A bias that balls twice as wide tell may be taken off where none of the photons
+    /// that were asked for came.
     pub fn found_nothing(&self) -> bool {
-        !self.dark && self.value.iter().all(|v| v.mean().is_none_or(|mean| mean == 0.0))
+        let none_came = self.asked_photons && self.photons == 0.0;
+        let is_nothing = |mean: f64| mean == 0.0 || none_came && mean < 0.0;
+        !self.dark && self.value.iter().all(|v| v.mean().is_none_or(is_nothing))
     }
 
     /// Bound on the bias of a channel at a confidence: the estimated kernel bias with as much of its own uncertainty as the reading's
@@ -264,5 +268,20 @@ impl ErrorOver {
                 .reduce(f64::max)
                 .or(Some(0.0)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is taken off where no photon came leaves less than nothing, which is no light found.
+    #[test]
+    fn less_than_nothing_without_a_photon_is_nothing() {
+        let mut cell = CellResult::<1> { dark: false, asked_photons: true, ..CellResult::default() };
+        cell.value[0].push(-0.1);
+        assert!(cell.found_nothing());
+        cell.photons = 3.0;
+        assert!(!cell.found_nothing());
     }
 }

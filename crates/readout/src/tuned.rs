@@ -135,7 +135,8 @@ fn see<const C: usize>(looks: &[Look<'_, C>; 2], places: &Places<'_, C>, radius:
 fn see_in_cells<const C: usize>(looks: &[Look<'_, C>; 2], cells: &[Cell], radius: f64) -> Seen {
     let most = looks[0].samples as usize;
     let points = (POINTS / cells.len().max(1)).clamp(POINTS_OF_CELL.min(most), most);
-    let step = (cells.len() * points).div_ceil(POINTS).max(1);
+    // An odd one, which goes through the columns of pictures whose width is even.
+    let step = (cells.len() * points).div_ceil(POINTS).max(1) | 1;
     let sums: Vec<_> = (0..cells.len())
         .into_par_iter()
         .step_by(step)

@@ -99,9 +99,11 @@ impl Growth {
         found: &mut Findings,
     ) -> anyhow::Result<Self> {
         let cells = Cell::of_sensor(&lab.world.scene, 0);
+        let memory = |&(_, photons, samples): &(u64, u64, u64)| peak_bytes(folder, photons, samples, p.seed);
+        // First of all, while the program's file is what it was.
+        let bytes_of_counts = counts.iter().map(memory).collect::<anyhow::Result<Vec<_>>>()?;
         let mut points = Vec::new();
-        for &(count, photons, samples) in counts {
-            let bytes = peak_bytes(folder, photons, samples, p.seed)?;
+        for (&(count, photons, samples), bytes) in counts.iter().zip(bytes_of_counts) {
             let mut seconds = Vec::new();
             for seed in p.seed..p.seed + p.replicates {
                 let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
@@ -110,7 +112,7 @@ impl Growth {
                 seconds.push(clock.seconds());
             }
             for (seed, &spent) in (p.seed..).zip(&seconds) {
-                found.rows.push(cost_row(of, count, seed, spent, bytes));
+                found.rows.push(cost_row(of, count, seed, spent, bytes.filter(|_| seed == p.seed)));
             }
             points.push(Cost { count, seconds, bytes });
         }
