@@ -29,13 +29,17 @@ const METER: &str = r#"<sensor type="irradiancemeter"><film type="hdrfilm"><inte
 const SIZE: u32 = 12;
 /// Confidence of each interval.
 const CONFIDENCE: f64 = 0.99;
-/// Exponents are expected within this of 1, from this count on.
-const EXPONENT: f64 = 0.15;
-const FIRST: usize = 2;
+/// The cost of one more is expected within this of what it is at the most counts, from this step on.
+const STEP: f64 = 0.15;
+const FIRST: usize = 1;
 /// Memory may grow by this share from where a pass is full.
 const GROWTH: f64 = 0.1;
 /// A pass's photons at most, as the schedule has them where neither error nor clock ends a run.
 const FULL: u64 = 1 << 19;
+/// Its rays at most, with so many cells.
+const FULL_OF_RAYS: u64 = (SIZE * SIZE) as u64 * (1 << 13);
+/// Passes of a run at least.
+const PASSES: u64 = 16;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -49,7 +53,7 @@ struct Parameters {
     /// Final-gather rays in all, rising.
     rays: Vec<u64>,
     photons_for_rays: u64,
-    /// Largest half-width of an exponent.
+    /// Largest half-width of a cost of one more over another.
     precision: f64,
 }
 
@@ -119,29 +123,41 @@ impl Growth {
         Ok(Self { of, points })
     }
 
-    /// The exponent of time between two neighbouring counts, by seeds in pairs.
-    fn exponent(pair: &[Cost]) -> Option<Interval> {
-        let decades = (pair[1].count as f64 / pair[0].count as f64).ln();
-        let pairs = pair[0].seconds.iter().zip(&pair[1].seconds);
-        let exponents: Replicates = pairs.map(|(less, more)| (more / less).ln() / decades).collect();
-        exponents.interval(CONFIDENCE)
+    /// What one more takes between two neighbouring counts, over what it takes between the last two, by seeds in pairs.
+    fn of_one_more(&self, step: usize) -> Option<Interval> {
+        let marginal = |step: usize, seed: usize| {
+            let [less, more] = [&self.points[step], &self.points[step + 1]];
+            (more.seconds[seed] - less.seconds[seed]) / (more.count - less.count) as f64
+        };
+        let last = self.points.len() - 2;
+        let ratios: Replicates =
+            (0..self.points[0].seconds.len()).map(|seed| marginal(step, seed) / marginal(last, seed)).collect();
+        ratios.interval(CONFIDENCE)
     }
 
-    /// Memory at the most counts over that at the fewest that fill a pass.
+    /// The steps that are judged.
+    fn steps(&self) -> std::ops::Range<usize> {
+        FIRST..self.points.len() - 2
+    }
+
+    /// Memory at the most counts over that at the fewest that fill a pass, if these are fewer.
     fn growth_of_memory(&self) -> Option<f64> {
-        let full = self.points.iter().find(|cost| self.of == "rays" || cost.count >= 16 * FULL)?;
-        Some(self.points.last()?.bytes? as f64 / full.bytes? as f64)
+        let fills = PASSES * if self.of == "rays" { FULL_OF_RAYS } else { FULL };
+        let (last, fewer) = self.points.split_last()?;
+        let full = fewer.iter().find(|cost| cost.count >= fills)?;
+        Some(last.bytes? as f64 / full.bytes? as f64)
     }
 
     /// False if an interval is wider than asked.
     fn judge(&self, precision: f64, found: &mut Findings) -> bool {
         let mut narrow = true;
-        for pair in self.points.windows(2).skip(FIRST - 1) {
-            let exponent = Self::exponent(pair);
-            narrow &= exponent.is_some_and(|exponent| exponent.half_width() <= precision);
-            let expected = Expected::within(1.0, EXPONENT, "passes share nothing");
-            let label = format!("exponent of CPU time in {}, {} to {}", self.of, pair[0].count, pair[1].count);
-            found.comparisons.push(Comparison::judge(label, "1", expected, exponent));
+        for step in self.steps() {
+            let ratio = self.of_one_more(step);
+            narrow &= ratio.is_some_and(|ratio| ratio.half_width() <= precision);
+            let expected = Expected::within(1.0, STEP, "passes share nothing");
+            let [from, to] = [0, 1].map(|next| self.points[step + next].count);
+            let label = format!("CPU time of one more of {}, {from} to {to}, over that of the last step", self.of);
+            found.comparisons.push(Comparison::judge(label, "1", expected, ratio));
         }
         if let Some(growth) = self.growth_of_memory() {
             let source = "a pass bounds memory".into();
@@ -172,13 +188,13 @@ fn peak_bytes(folder: &Path, photons: u64, samples: u64, seed: u64) -> anyhow::R
 fn conclude(growths: &[Growth], narrow: bool, found: &Findings) -> (Verdict, String) {
     let missed = found.comparisons.iter().any(|comparison| comparison.holds == Some(false));
     let told = |growth: &Growth| {
-        let exponents = growth.points.windows(2).skip(FIRST - 1).filter_map(Growth::exponent);
-        let exponents: Vec<String> = exponents.map(|exponent| format!("{:.2}", exponent.value)).collect();
+        let ratios: Vec<String> =
+            growth.steps().filter_map(|step| Some(format!("{:.2}", growth.of_one_more(step)?.value))).collect();
         let memory =
             growth.growth_of_memory().map_or(String::new(), |by| format!(", memory by {by:.2} from a full pass on"));
-        format!("with {} as the power {}{memory}", growth.of, exponents.join(", "))
+        format!("one more of {} takes {} times what it takes at the end{memory}", growth.of, ratios.join(", "))
     };
-    let reason = format!("CPU time grows {}; {}", told(&growths[0]), told(&growths[1]));
+    let reason = format!("{}; {}", told(&growths[0]), told(&growths[1]));
     match (missed, narrow) {
         (true, _) => (Verdict::DoesNotHold, reason),
         (false, true) => (Verdict::Holds, reason),
