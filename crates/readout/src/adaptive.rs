@@ -67,10 +67,9 @@ impl CellRadius {
     /// Light less the bias that the ball of twice the radius tells is an estimate of fourth order. Its noise is larger: of discs the
     /// difference has a twelfth of their variance and is bound to it by minus a quarter, so that a share `w` leaves
     /// `(1 - w)^2 B^2 + s^2 (1 + w / 2 + w^2 / 12)`, least at `w = (B^2 - s^2 / 4) / (B^2 + s^2 / 12)`, for a bias `B` and a variance `s^2` of the
-    /// mean of all passes. The share goes by earlier passes alone, but for the first pass of a picture, whose photons are
-    /// one of the two looks that tuned; and by no less a bias than all
-    /// cells show together, since a bias that is taken off where it is large alone, at peaks, and left between them would move the mean
-    /// over the cells, which balls of one radius keep.
+    /// mean of all passes. The share goes by earlier passes alone, but for the first pass of a picture, whose photons are one of the two looks that
+    /// tuned; and by no less a bias than all cells show together: taken off where it is large alone, at peaks, and left between them, it would move
+    /// the mean over the cells, which balls of one radius keep.
     pub(crate) fn correction(&self, radius: f64, passes: u64, common: &Common) -> f64 {
         let (bend_squared, noise) = if self.weight > 0.0 {
             let light = self.light / self.weight;

@@ -115,8 +115,7 @@ impl<const C: usize> Session<'_, C> {
             spots.map(|spot| self.world.stored(spot.at.position)).collect::<Vec<_>>()
         };
         let places = (0..cells.len()).into_par_iter().map(of_cell).collect::<Vec<_>>().concat();
-        let own = run.of_cells.iter().filter(|_| self.settings.method == Method::Adaptive);
-        let widest = own.map(|cell| cell.get(radius)).fold(radius, f64::max);
+        let widest = run.of_cells.iter().map(|cell| self.radius_of(cell, radius)).fold(radius, f64::max);
         Some(Near::new(&places, CHECK * widest))
     }
 }

@@ -86,10 +86,7 @@ impl<const C: usize> Session<'_, C> {
         if let (Method::Adaptive, Some(pilots)) = (self.settings.method, &pilots) {
             self.learn_from_pilots(run, &look, cells, (passes, surface_radius), pilots);
         }
-        let radius = |cell: &CellRadius| {
-            if self.settings.method == Method::Adaptive { cell.get(surface_radius) } else { surface_radius }
-        };
-        let radii: Vec<f64> = run.of_cells.iter().map(radius).collect();
+        let radii: Vec<f64> = run.of_cells.iter().map(|cell| self.radius_of(cell, surface_radius)).collect();
         let caches = self.caches();
         let sites: &Sites<C> =
             run.sites.get_or_insert_with(|| if caches { self.sites(&look, cells) } else { Sites::default() });
@@ -141,6 +138,11 @@ impl<const C: usize> Session<'_, C> {
         run.passes += 1;
         run.samples += samples;
         Ok(())
+    }
+
+    /// The radius with which a cell is read, metres: its own where each has one, else that which all share.
+    pub(crate) fn radius_of(&self, cell: &CellRadius, shared: f64) -> f64 {
+        if self.settings.method == Method::Adaptive { cell.get(shared) } else { shared }
     }
 
     /// True if each cell learns of its bias, and what it has learnt is taken off: where radii are the program's own.
