@@ -22,13 +22,15 @@ pub(crate) struct Common {
     pub(crate) photons: f64,
     /// Sum over the cells of the squared bias over the radius to the fourth, over that of the squared light.
     pub(crate) bend_squared: f64,
+    /// True if the cells themselves have shown it; else places all over the scene.
+    pub(crate) is_of_cells: bool,
     /// Variance over that of independent photons.
     pub(crate) spread: f64,
 }
 
 impl Default for Common {
     fn default() -> Self {
-        Self { radius: 0.0, photons: 0.0, bend_squared: 0.0, spread: 1.0 }
+        Self { radius: 0.0, photons: 0.0, bend_squared: 0.0, is_of_cells: false, spread: 1.0 }
     }
 }
 
@@ -68,12 +70,12 @@ impl CellRadius {
     /// difference has a twelfth of their variance and is bound to it by minus a quarter, so that a share `w` leaves
     /// `(1 - w)^2 B^2 + s^2 (1 + w / 2 + w^2 / 12)`, least at `w = (B^2 - s^2 / 4) / (B^2 + s^2 / 12)`, for a bias `B` and a variance `s^2` of the
     /// mean of all passes. The share goes by earlier passes alone, but for the first pass of a picture, whose photons are one of the two looks that
-    /// tuned; and by no less a bias than all cells show together: taken off where it is large alone, at peaks, and left between them, it would move
+    /// tuned; and by no less a bias than all cells show together, if they were looked at: taken off where it is large alone, at peaks, and left between them, it would move
     /// the mean over the cells, which balls of one radius keep.
     pub(crate) fn correction(&self, radius: f64, passes: u64, common: &Common) -> f64 {
         let (bend_squared, noise) = if self.weight > 0.0 {
             let light = self.light / self.weight;
-            let of_all = common.bend_squared * light * light;
+            let of_all = if common.is_of_cells { common.bend_squared * light * light } else { 0.0 };
             (self.bend_squared(common).max(of_all), self.noise / (self.weight * radius * radius))
         } else {
             // Of a light of 1, if nothing of this cell is known.
@@ -84,7 +86,7 @@ impl CellRadius {
         if share.is_finite() { share.max(0.0) } else { 0.0 }
     }
 
-    /// Takes in a pass that was read with `radius`, and chooses the next for the mean of `passes`: those that are expected, or those done
+    /// Takes in the density estimates of a pass that was read with `radius`, and chooses the next for the mean of `passes`: those that are expected, or those done
     /// if they are more, so that noise and bias both go to zero.
     pub(crate) fn learn<const C: usize>(
         &mut self,

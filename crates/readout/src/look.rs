@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use photonlab_final_gather::{EyeLimits, Gatherer, Guide, InScattering, Light, Place, Spot, Start, follow};
-use photonlab_gather::{Bandwidth, CHECK, Estimator, Scratch, Tests};
+use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
-use photonlab_sampling::{Optics, Purpose, Sight, Stream, sample_direct};
-use photonlab_scene::{Ray, SurfacePoint, World};
+use photonlab_sampling::{Optics, Purpose, Sight, Stream};
+use photonlab_scene::{Ray, World};
 
 use crate::{
     Cell, Direct, Method, Settings, Target,
@@ -15,6 +15,7 @@ use crate::{
     cells::{distant_ray, pixel_ray},
     lattice,
     maps::PassMaps,
+    sample::Sample,
 };
 
 /// Points of a cell whose photons guide the rays of all.
@@ -46,28 +47,6 @@ pub(crate) struct Look<'p, const C: usize> {
     pub(crate) cache: Option<Cache<'p, C>>,
 }
 
-/// What one sample of a cell, or the sum of several, found, in the cell's unit.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Sample<const C: usize> {
-    pub(crate) light: Light<C>,
-    /// True if there can be no light: the ray left the scene or met something black.
-    pub(crate) dark: bool,
-}
-
-impl<const C: usize> Default for Sample<C> {
-    /// Of no samples: nothing found.
-    fn default() -> Self {
-        Self { light: Light::default(), dark: true }
-    }
-}
-
-impl<const C: usize> Sample<C> {
-    pub(crate) fn add(&mut self, other: &Self) {
-        self.light.add(&other.light);
-        self.dark &= other.dark;
-    }
-}
-
 impl<const C: usize> Look<'_, C> {
     /// The offsets of a cell's quasi-random points in this pass.
     pub(crate) fn shift(&self, number: usize) -> [f64; lattice::DIMENSIONS] {
@@ -87,13 +66,19 @@ impl<const C: usize> Look<'_, C> {
     ) -> Sample<C> {
         let first = self.first_stream(number, sample);
         let ending = self.ending(cell, number, sample, shift);
-        let mut light = ending.light;
+        let mut found = Sample { light: ending.light, dark: ending.dark, ..Sample::default() };
         if let Some(End { spot, weight, share, caustics }) = ending.end {
             let guide = self.guides.get(number).and_then(Option::as_ref);
-            let seed = Seed { first, sample, shift, share, radius, caustics, guide };
-            light.add(&self.irradiance(&spot, seed, scratch).weighted(weight));
+            let seed = Seed { first, sample, shift, share, caustics, guide };
+            if self.settings.method.is_direct_view() {
+                let estimate = self.read_map(&spot, radius, self.told(sample), scratch);
+                found.add_estimate(&estimate.weighted(weight));
+                found.light.irradiance += self.sampled_direct(&spot, &seed) * weight;
+            } else {
+                found.light.add(&self.irradiance(&spot, &seed, scratch).weighted(weight));
+            }
         }
-        Sample { light, dark: ending.dark }
+        found
     }
 
     /// Where a sample reads the light at a surface; `None` if it does not.
@@ -181,7 +166,7 @@ impl<const C: usize> Look<'_, C> {
         Stream::new(self.settings.seed, Purpose::Readout, self.pass, index)
     }
 
-    fn limits(&self) -> EyeLimits {
+    pub(crate) fn limits(&self) -> EyeLimits {
         self.settings.eye_limits()
     }
 
@@ -210,93 +195,27 @@ impl<const C: usize> Look<'_, C> {
         Guide::new(map, spots.map(place), scratch)
     }
 
-    /// The mean over the gather rays of one point.
-    fn irradiance(&self, spot: &Spot<C>, seed: Seed<'_>, scratch: &mut Scratch) -> Light<C> {
+    /// The mean over the rays of one point, of methods that send them.
+    fn irradiance(&self, spot: &Spot<C>, seed: &Seed<'_>, scratch: &mut Scratch) -> Light<C> {
         let Spot { at, sight, used } = spot;
-        let (sight, used) = (*sight, *used);
         let rays = self.settings.rays_per_sample();
         let mut light = Light::default();
         for ray in 0..rays {
-            let [_, _, _, a, b, c, d, e, ..] =
-                lattice::point(seed.sample * u64::from(rays) + u64::from(ray), seed.shift);
-            let mut stream = self.stream(seed.first + 1 + u64::from(ray)).with_prefix([a, b, c, d, e]);
-            light.add(&match self.settings.method {
-                Method::FinalGather { .. } | Method::Path => {
-                    let gatherer = Gatherer { guide: seed.guide, ..self.gatherer(seed.caustics) };
-                    match self.cache.filter(|_| spot.is_plain()) {
-                        Some(cache) => cache.irradiance(&gatherer, spot, seed.share, &mut stream, scratch),
-                        None => gatherer.irradiance(at, sight, used, seed.share, &mut stream, scratch),
-                    }
-                }
-                Method::Bins => Light::default(),
-                Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => {
-                    let mut one = self.read_map(at, &sight, used, (seed.radius, self.told(seed.sample)), scratch);
-                    if self.settings.direct == Direct::Sampled && self.limits().allows(used + 1) {
-                        let xi = [stream.next(), stream.next(), stream.next()];
-                        let direct = sample_direct(self.world, self.optics, at, &sight, xi)
-                            .filter(|direct| self.limits().allows(used + 1 + direct.panes));
-                        one.irradiance += direct.map_or(Colour::ZERO, |d| {
-                            let weight = sight.weight(sight.normals.cosine(d.direction));
-                            d.irradiance * (weight / (1.0 + seed.share * d.point_factor))
-                        });
-                    }
-                    one
-                }
+            let mut stream = self.ray_stream(seed, ray);
+            let gatherer = Gatherer { guide: seed.guide, ..self.gatherer(seed.caustics) };
+            light.add(&match self.cache.filter(|_| spot.is_plain()) {
+                Some(cache) => cache.irradiance(&gatherer, spot, seed.share, &mut stream, scratch),
+                None => gatherer.irradiance(at, *sight, *used, seed.share, &mut stream, scratch),
             });
         }
         light.over(f64::from(rays))
     }
 
-    /// How much the bias counts that a sample tells; zero if it tells none. The mean over all samples is 1.
-    fn told(&self, sample: u64) -> f64 {
-        if self.told_of == 0 {
-            return 0.0;
-        }
-        let telling = self.samples.div_ceil(self.told_of);
-        if sample.is_multiple_of(self.told_of) { self.samples as f64 / telling as f64 } else { 0.0 }
-    }
-
-    /// The density estimate at the point itself, of which the bias counts `told` times.
-    pub(crate) fn read_map(
-        &self,
-        at: &SurfacePoint,
-        sight: &Sight<C>,
-        used: u32,
-        (radius, told): (f64, f64),
-        scratch: &mut Scratch,
-    ) -> Light<C> {
-        let Some(map) = &self.maps.surface else {
-            return Light::default();
-        };
-        let bandwidth = match self.settings.method {
-            Method::Nearest { .. } => Bandwidth::Nearest { k: self.k, max_radius: f64::INFINITY },
-            _ => Bandwidth::Radius(radius),
-        };
-        let tests = Tests {
-            max_segments: self.settings.limits.max_segments.map(|max| max.saturating_sub(used)),
-            ..Tests::default()
-        };
-        let place = Place { world: self.world, optics: self.optics, at, sight };
-        let estimator = Estimator { tells_bias: told > 0.0, ..self.settings.estimator };
-        let found = place.estimate(map, bandwidth, estimator, &tests, scratch);
-        let astray = !found.remedied && self.world.ball_leaves_surface(at, CHECK * found.radius);
-        let unresolved = found.photons > 0 && astray;
-        let brightness = found.irradiance.mean();
-        let counted = self.settings.estimator.kernel.variance_factor() / (found.photons as f64).max(1.0);
-        let noise = brightness * brightness * counted;
-        Light {
-            irradiance: found.irradiance,
-            bias: found.bias * told,
-            noise,
-            noise_of_bias: noise * self.settings.estimator.area.noise_of_bias(found.remedied),
-            // A linear fit may read less than nothing, which is no less uncertain.
-            unresolved: if unresolved { found.irradiance.map(f64::abs) } else { Colour::ZERO },
-            photons: found.photons as f64,
-            reads: 1.0,
-            glints: 0.0,
-            astray: f64::from(u8::from(astray)),
-            remedied: f64::from(u8::from(found.remedied)),
-        }
+    /// What one ray of a point is drawn by.
+    pub(crate) fn ray_stream(&self, seed: &Seed<'_>, ray: u32) -> Stream {
+        let rays = u64::from(self.settings.rays_per_sample());
+        let [_, _, _, a, b, c, d, e, ..] = lattice::point(seed.sample * rays + u64::from(ray), seed.shift);
+        self.stream(seed.first + 1 + u64::from(ray)).with_prefix([a, b, c, d, e])
     }
 }
 
@@ -318,15 +237,14 @@ struct End<const C: usize> {
     caustics: bool,
 }
 
+/// What one reading of a cell goes by.
 #[derive(Clone, Copy)]
-struct Seed<'s> {
+pub(crate) struct Seed<'s> {
     first: u64,
     sample: u64,
     shift: &'s [f64; lattice::DIMENSIONS],
     /// See [`Look::shares`].
-    share: f64,
-    /// With which a map is read, metres.
-    radius: f64,
+    pub(crate) share: f64,
     /// False if caustic light is counted in the cell.
     caustics: bool,
     /// What guides gather rays.

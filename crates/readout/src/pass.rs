@@ -12,11 +12,12 @@ use crate::{
     adaptive::CellRadius,
     bins::Bins,
     cached::Cache,
-    look::{Look, Sample},
+    look::Look,
     maps::{DIRECT_VIEW_COUNT, PassMaps, SHRINK},
     pilot::Pilots,
     probe::{probe, shares},
     run::Run,
+    sample::Sample,
     session::passes_at_hand,
     trace_pass,
 };
@@ -101,16 +102,15 @@ impl<const C: usize> Session<'_, C> {
         let counts_spread = self.settings.draws == Draws::Spread && matches!(source, Source::Trace);
         let brightest_glint = *run.brightest_glint.get_or_insert_with(|| self.brightest_glint());
         let probed = self.probes(cells, optics, number as u32, samples);
-        for ((index, Sample { mut light, dark }), probed) in found.into_iter().enumerate().zip(probed) {
+        for ((index, Sample { mut light, estimate, dark }), probed) in found.into_iter().enumerate().zip(probed) {
             let mut mean = light.over(samples as f64);
             if self.takes_off_bias() {
-                let passes = passes.max(number + 1);
+                let (passes, estimate) = (passes.max(number + 1), estimate.over(samples as f64));
                 // At an edge what is told bounds the bias, or means nothing.
-                let is_estimate = mean.astray == 0.0 && mean.remedied == 0.0;
+                let is_told = estimate.astray == 0.0 && estimate.remedied == 0.0;
                 let share = run.of_cells[index].correction(radii[index], passes, &run.common);
-                let corrected = mean.irradiance - mean.bias * if is_estimate { share } else { 0.0 };
-                run.of_cells[index].learn(&mean, radii[index], passes, &run.common, self.largest_radius());
-                mean.irradiance = corrected;
+                mean.irradiance = mean.irradiance - estimate.bias * if is_told { share } else { 0.0 };
+                run.of_cells[index].learn(&estimate, radii[index], passes, &run.common, self.largest_radius());
             }
             mean.irradiance += probed;
             if let Some((irradiance, photons)) = maps.in_cells.of(index) {

@@ -66,7 +66,7 @@ impl<const C: usize> Session<'_, C> {
             let look = Look { maps, ..*look };
             let radii: Vec<f64> = run.of_cells.iter().map(|cell| cell.get(first)).collect();
             for (index, found) in read(&look, cells, &radii).iter().enumerate() {
-                let mean = found.light.over(look.samples as f64);
+                let mean = found.estimate.over(look.samples as f64);
                 run.of_cells[index].learn(&mean, radii[index], passes, &run.common, self.largest_radius());
             }
         }

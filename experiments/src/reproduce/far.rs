@@ -31,10 +31,10 @@ const ORDERS: u32 = 4;
 /// Radius of the ball and its shadow, metres.
 const BALL: f64 = 0.5;
 
-/// The maps' methods; the nearest photons are judged by the radius that the fixed one has found.
+/// The maps' methods; the nearest photons are judged by the radius that the one before has found.
 pub(super) const METHODS: [(&str, Method); 3] = [
     ("final gather", Method::FinalGather { radius: None }),
-    ("fixed radius", Method::Radius { radius: None }),
+    ("found radius", Method::Radius { radius: None }),
     ("k nearest", Method::Nearest { k: None }),
 ];
 

@@ -15,8 +15,9 @@ use super::{
 
 /// Photons of which a radius is told.
 const MILLION: f64 = 1e6;
-/// Photons of a pass at most, which bounds memory.
-const PASS: u64 = 1_000_000;
+/// Photons of a pass at most, which bounds memory; enough for the points of all replicates to be few beside them, so that what none can
+/// reach is left out of the map.
+const PASS: u64 = 2_000_000;
 
 /// How a picture's part is read: its radius is a function of the photons, fixed in advance.
 pub(super) struct Course<'p> {

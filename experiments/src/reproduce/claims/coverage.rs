@@ -31,10 +31,11 @@ const SHORT: f64 = 0.01;
 /// Most of the median half-width over the RMS error.
 const WIDEST: f64 = 3.0;
 
-const METHODS: [(&str, Way); 7] = [
+const METHODS: [(&str, Way); 8] = [
     ("final gather", Way::plain(Method::FinalGather { radius: None })),
     ("irradiance cache", Way { cache: true, ..Way::plain(Method::FinalGather { radius: None }) }),
-    ("fixed radius", Way::plain(Method::Radius { radius: None })),
+    ("found radius", Way::plain(Method::Radius { radius: None })),
+    ("named radius", Way { named: true, ..Way::plain(Method::Radius { radius: None }) }),
     ("k nearest", Way::plain(Method::Nearest { k: None })),
     ("adaptive", Way::plain(Method::Adaptive)),
     ("path tracing", Way::plain(Method::Path)),
@@ -46,11 +47,13 @@ const METHODS: [(&str, Way); 7] = [
 struct Way {
     method: Method,
     cache: bool,
+    /// Within the radius that an earlier run has found, named as a user would.
+    named: bool,
 }
 
 impl Way {
     const fn plain(method: Method) -> Self {
-        Self { method, cache: false }
+        Self { method, cache: false, named: false }
     }
 }
 
@@ -131,7 +134,7 @@ fn fnv1a(text: &str) -> u64 {
 fn read<const C: usize>(
     lab: &Lab,
     case: &Case,
-    Way { method, cache }: Way,
+    Way { mut method, cache, named }: Way,
     p: &Parameters,
     first: u64,
 ) -> anyhow::Result<(Vec<Run>, Vec<Truth>)> {
@@ -147,7 +150,7 @@ fn read<const C: usize>(
         case.expected.iter().find(|answer| &answer.sensor == id).ok_or_else(|| anyhow::anyhow!("no answer for {id}"))
     });
     let answers: Vec<_> = answers.collect::<anyhow::Result<_>>()?;
-    let settings = |seed: u64| Settings {
+    let settings = |method: Method, seed: u64| Settings {
         method,
         direct: Direct::Sampled,
         estimator: DEFAULT_ESTIMATOR,
@@ -158,13 +161,18 @@ fn read<const C: usize>(
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
     };
     let wanted = Wanted { photons: Some(p.photons), samples: (!counts).then_some(p.points), ..Wanted::default() };
-    let is_doubted = doubt(&lab.world, &lab.needs, leak(&lab.world), &settings(first)).is_some();
     let (mut runs, mut truths) = (Vec::new(), Vec::new());
     if cells.is_empty() {
         return Ok((runs, truths));
     }
+    if named {
+        let earlier = lab.read::<C>(&cells, settings(method, first + p.seeds), &wanted, LEVELS[USUAL])?;
+        let Some(radius) = earlier.radius.filter(|radius| *radius > 0.0) else { return Ok((runs, truths)) };
+        method = Method::Radius { radius: Some(radius) };
+    }
+    let is_doubted = doubt(&lab.world, &lab.needs, leak(&lab.world), &settings(method, first)).is_some();
     for seed in first..first + p.seeds {
-        let outcome = lab.read::<C>(&cells, settings(seed), &wanted, LEVELS[USUAL])?;
+        let outcome = lab.read::<C>(&cells, settings(method, seed), &wanted, LEVELS[USUAL])?;
         let channels = 0..outcome.results;
         truths = answers
             .iter()
@@ -246,7 +254,7 @@ fn figure(
             label: (*name).into(),
             kind: SeriesKind::Measured,
             points: (0..LEVELS.len())
-                .filter_map(|level| point(&parts[1], level, 0.1 * (number as f64 - 3.0)))
+                .filter_map(|level| point(&parts[1], level, 0.1 * (number as f64 - 3.5)))
                 .collect(),
         })
         .filter(|series| !series.points.is_empty())
