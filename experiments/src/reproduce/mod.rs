@@ -9,6 +9,7 @@ mod caustic_flux;
 mod caustic_profile;
 mod checker_detail;
 mod claims;
+mod command_cost;
 mod context;
 mod controlled;
 mod covered;

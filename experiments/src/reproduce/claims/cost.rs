@@ -1,31 +1,24 @@
 //! `cost`: CPU time and memory against photons and rays.
 
-use std::{fs, path::Path, process::Command};
+use std::{fs, path::Path};
 
-use anyhow::Context as _;
 use photonlab_measure::{
     Axis, Comparison, Expected, FigureData, Interval, Point, Record, Replicates, Row, Series, SeriesKind, Verdict,
 };
-use photonlab_readout::{Cell, Wanted};
-use photonlab_scene::Film;
 use serde::Deserialize;
 
-use crate::{
-    reproduce::{
-        context::{Context, Findings},
-        cpu_clock::{CPU_SECONDS, CpuClock, microseconds},
-        lab::Lab,
-        strategy::Strategy,
-        table::row,
-    },
-    system,
+use crate::reproduce::{
+    command_cost::Spent,
+    context::{Context, Findings},
+    cpu_clock::microseconds,
+    table::row,
 };
 
 const SCENE: &str = include_str!("../../../scenes/cornell-box.xml");
-/// Its file, for commands, with a meter on the floor that has as many cells as the picture has pixels: readings tell their memory.
+/// Its file, with a meter on the floor.
 const FILE: &str = "cornell-box.xml";
 const METER: &str = r#"<sensor type="irradiancemeter"><film type="hdrfilm"><integer name="width" value="12"/><integer name="height" value="12"/></film></sensor></shape>"#;
-/// Pixels across and down.
+/// Cells of the meter across and down.
 const SIZE: u32 = 12;
 /// Confidence of each interval.
 const CONFIDENCE: f64 = 0.99;
@@ -48,7 +41,7 @@ struct Parameters {
     replicates: u64,
     /// Emitted in all, rising.
     photons: Vec<u64>,
-    /// Points of a pixel meanwhile.
+    /// Points of a cell meanwhile.
     points: u64,
     /// Final-gather rays in all, rising.
     rays: Vec<u64>,
@@ -65,24 +58,21 @@ struct Growth {
 
 struct Cost {
     count: u64,
-    seconds: Vec<f64>,
-    /// Of a command that does nothing else, where the system tells.
-    bytes: Option<u64>,
+    /// By seed.
+    spent: Vec<Spent>,
 }
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let mut lab = Lab::new(FILE, SCENE, &[])?;
-    let folder = context.folder("scenes")?;
-    fs::write(folder.join(FILE), SCENE.replacen("</shape>", METER, 1))?;
-    lab.world.scene.sensors[0].film = Film { width: SIZE, height: SIZE };
-    let pixels = u64::from(SIZE * SIZE);
+    let scene = context.folder("scenes")?.join(FILE);
+    fs::write(&scene, SCENE.replacen("</shape>", METER, 1))?;
+    let cells = u64::from(SIZE * SIZE);
     let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
     let of_photons: Vec<_> = p.photons.iter().map(|&photons| (photons, photons, p.points)).collect();
-    let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_for_rays, rays.div_ceil(pixels))).collect();
+    let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_for_rays, rays.div_ceil(cells))).collect();
     let growths = [
-        Growth::measure("photons", (&lab, &folder), &of_photons, &p, &mut found)?,
-        Growth::measure("rays", (&lab, &folder), &of_rays, &p, &mut found)?,
+        Growth::measure("photons", &scene, &of_photons, &p, &mut found)?,
+        Growth::measure("rays", &scene, &of_rays, &p, &mut found)?,
     ];
     let mut narrow = true;
     for growth in &growths {
@@ -94,31 +84,21 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
 }
 
 impl Growth {
-    /// Counts, each with the photons and the points of a pixel that make it.
+    /// Counts, each with the photons and the points of a cell that make it.
     fn measure(
         of: &'static str,
-        (lab, folder): (&Lab, &Path),
+        scene: &Path,
         counts: &[(u64, u64, u64)],
         p: &Parameters,
         found: &mut Findings,
     ) -> anyhow::Result<Self> {
-        let cells = Cell::of_sensor(&lab.world.scene, 0);
-        let memory = |&(_, photons, samples): &(u64, u64, u64)| peak_bytes(folder, photons, samples, p.seed);
-        // First of all, while the program's file is what it was.
-        let bytes_of_counts = counts.iter().map(memory).collect::<anyhow::Result<Vec<_>>>()?;
         let mut points = Vec::new();
-        for (&(count, photons, samples), bytes) in counts.iter().zip(bytes_of_counts) {
-            let mut seconds = Vec::new();
-            for seed in p.seed..p.seed + p.replicates {
-                let wanted = Wanted { photons: Some(photons), samples: Some(samples), ..Wanted::default() };
-                let clock = CpuClock::start();
-                lab.read::<3>(&cells, Strategy::FINAL_GATHER.settings(seed), &wanted, CONFIDENCE)?;
-                seconds.push(clock.seconds());
-            }
-            for (seed, &spent) in (p.seed..).zip(&seconds) {
-                found.rows.push(cost_row(of, count, seed, spent, bytes.filter(|_| seed == p.seed)));
-            }
-            points.push(Cost { count, seconds, bytes });
+        for &(count, photons, samples) in counts {
+            let seeds = p.seed..p.seed + p.replicates;
+            let spent: Vec<Spent> =
+                seeds.clone().map(|seed| Spent::reading(scene, photons, samples, seed)).collect::<Result<_, _>>()?;
+            found.rows.extend(seeds.zip(&spent).map(|(seed, spent)| cost_row(of, count, seed, spent)));
+            points.push(Cost { count, spent });
         }
         Ok(Self { of, points })
     }
@@ -127,11 +107,11 @@ impl Growth {
     fn of_one_more(&self, step: usize) -> Option<Interval> {
         let marginal = |step: usize, seed: usize| {
             let [less, more] = [&self.points[step], &self.points[step + 1]];
-            (more.seconds[seed] - less.seconds[seed]) / (more.count - less.count) as f64
+            (more.spent[seed].seconds - less.spent[seed].seconds) / (more.count - less.count) as f64
         };
         let last = self.points.len() - 2;
         let ratios: Replicates =
-            (0..self.points[0].seconds.len()).map(|seed| marginal(step, seed) / marginal(last, seed)).collect();
+            (0..self.points[0].spent.len()).map(|seed| marginal(step, seed) / marginal(last, seed)).collect();
         ratios.interval(CONFIDENCE)
     }
 
@@ -145,7 +125,7 @@ impl Growth {
         let fills = PASSES * if self.of == "rays" { FULL_OF_RAYS } else { FULL };
         let (last, fewer) = self.points.split_last()?;
         let full = fewer.iter().find(|cost| cost.count >= fills)?;
-        Some(last.bytes? as f64 / full.bytes? as f64)
+        Some(last.most_bytes()? / full.most_bytes()?)
     }
 
     /// False if an interval is wider than asked.
@@ -170,19 +150,11 @@ impl Growth {
     }
 }
 
-/// Largest resident memory of the command that reads as many cells and ends: within one process the allocator keeps what earlier
-/// pictures have freed, in pieces, and that would be told as a pass's need.
-fn peak_bytes(folder: &Path, photons: u64, samples: u64, seed: u64) -> anyhow::Result<Option<u64>> {
-    let ended = Command::new(std::env::current_exe()?)
-        .arg("measure")
-        .arg(folder.join(FILE))
-        .args(["--json", "--method", "final-gather", "--draws", "independent"])
-        .args(["--photons", &photons.to_string(), "--spp", &samples.to_string()])
-        .args(["--seed", &seed.to_string(), "--threads", &system::threads().to_string()])
-        .output()?;
-    let told = serde_json::from_slice::<serde_json::Value>(&ended.stdout)
-        .with_context(|| format!("the command's reading: {}", String::from_utf8_lossy(&ended.stderr).trim()))?;
-    Ok(told["peak_bytes"].as_u64())
+impl Cost {
+    /// Of any seed: an allocator that keeps what is freed, in pieces, keeps a tenth more in some runs than in others.
+    fn most_bytes(&self) -> Option<f64> {
+        Some(self.spent.iter().map(|spent| spent.bytes).max()?? as f64)
+    }
 }
 
 fn conclude(growths: &[Growth], narrow: bool, found: &Findings) -> (Verdict, String) {
@@ -210,12 +182,12 @@ fn time(growths: &[Growth], replicates: u64) -> FigureData {
     let mut all = Vec::new();
     for growth in growths {
         let measured = |cost: &Cost| {
-            let seconds: Replicates = cost.seconds.iter().copied().collect();
+            let seconds: Replicates = cost.spent.iter().map(|spent| spent.seconds).collect();
             Some(Point::measured(cost.count as f64, seconds.interval(CONFIDENCE)?))
         };
         all.push(series(growth.of, SeriesKind::Measured, growth.points.iter().filter_map(measured).collect()));
         if let Some(last) = growth.points.last() {
-            let mean = last.seconds.iter().sum::<f64>() / last.seconds.len() as f64;
+            let mean = last.spent.iter().map(|spent| spent.seconds).sum::<f64>() / last.spent.len() as f64;
             let line = |cost: &Cost| Point::new(cost.count as f64, mean * cost.count as f64 / last.count as f64);
             let label = format!("in proportion to {}", growth.of);
             all.push(series(&label, SeriesKind::Reference, growth.points.iter().map(line).collect()));
@@ -224,7 +196,7 @@ fn time(growths: &[Growth], replicates: u64) -> FigureData {
     FigureData {
         id: "time".into(),
         title: "Final gather in the Cornell box: time against photons and rays".into(),
-        caption: format!("{replicates} seeds a point; bars: 99 % intervals. {CPU_SECONDS}."),
+        caption: format!("CPU seconds of a command on one thread; {replicates} seeds a point; bars: 99 % intervals."),
         x: Axis::log("photons, or rays, in all"),
         y: Axis::log("CPU seconds"),
         series: all,
@@ -233,26 +205,25 @@ fn time(growths: &[Growth], replicates: u64) -> FigureData {
 
 fn memory(growths: &[Growth]) -> FigureData {
     let of = |growth: &Growth| {
-        let point = |cost: &Cost| Some(Point::new(cost.count as f64, cost.bytes? as f64 / (1 << 20) as f64));
+        let point = |cost: &Cost| Some(Point::new(cost.count as f64, cost.most_bytes()? / f64::from(1 << 20)));
         series(growth.of, SeriesKind::Measured, growth.points.iter().filter_map(point).collect())
     };
     FigureData {
         id: "memory".into(),
         title: "Final gather in the Cornell box: memory against photons and rays".into(),
-        caption: "Largest resident memory of a command that reads as many cells and ends, where the system tells it."
-            .into(),
+        caption: "Largest resident memory of a command on one thread, of any seed, where the system tells it.".into(),
         x: Axis::log("photons, or rays, in all"),
         y: Axis::log("MiB"),
         series: growths.iter().map(of).collect(),
     }
 }
 
-fn cost_row(of: &str, count: u64, seed: u64, seconds: f64, bytes: Option<u64>) -> Row {
+fn cost_row(of: &str, count: u64, seed: u64, spent: &Spent) -> Row {
     row([
         ("of", of.into()),
         ("count", count.into()),
         ("seed", seed.into()),
-        ("cpu_seconds", microseconds(seconds).into()),
-        ("peak_bytes", bytes.into()),
+        ("cpu_seconds", microseconds(spent.seconds).into()),
+        ("peak_bytes", spent.bytes.into()),
     ])
 }
