@@ -166,6 +166,19 @@ mod tests {
         }
     }
 
+    /// A cell that shows no bias of its own loses what all cells show, if they were looked at; what places all over the scene show is
+    /// none of its business.
+    #[test]
+    fn no_bias_is_taken_for_less_than_that_of_all_cells() {
+        let common = Common { bend_squared: 100.0, is_of_cells: true, ..Common::default() };
+        let share = |common: &Common| {
+            let mut cell = CellRadius::default();
+            (0..9).for_each(|_| cell.learn(&found(0.0, 0.01), 0.1, 10, common, 10.0));
+            cell.correction(0.1, 10, common)
+        };
+        assert!(share(&common) > 0.8 && share(&Common { is_of_cells: false, ..common }) < 0.5 * share(&common));
+    }
+
     #[test]
     fn it_grows_where_nothing_is_found_and_stays_in_the_scene() {
         let mut cell = CellRadius::default();
