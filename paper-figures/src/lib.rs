@@ -21,6 +21,7 @@
 
 mod axes;
 mod canvas;
+mod chapter;
 mod chart;
 mod data_uri;
 mod error;
@@ -34,6 +35,7 @@ mod style;
 mod text;
 mod ticks;
 
+pub use chapter::Chapter;
 pub use chart::{caption, draw};
 pub use error::{FigureError, ReportError};
 pub use number::{interval_text, plain_text, uncertain_text};

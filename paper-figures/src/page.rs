@@ -3,6 +3,7 @@
 use photonlab_measure::{Comparison, FigureData, Group, ImageEntry, Record, Verdict};
 use serde::Serialize;
 
+use crate::chapter::{Chapter, ChapterPage};
 use crate::data_uri::data_uri;
 use crate::number::{interval_text, plain_text};
 use crate::{FigureError, ReportEntry, ReportError, caption, draw};
@@ -12,17 +13,19 @@ use crate::{FigureError, ReportEntry, ReportError, caption, draw};
 pub(crate) struct Page<'a> {
     tally: Vec<Tally>,
     claims: Vec<Claim<'a>>,
+    chapters: Vec<ChapterPage<'a>>,
 }
 
 impl<'a> Page<'a> {
     /// Draws every figure, rounds every number and turns every picture into text.
-    pub(crate) fn new(entries: &[ReportEntry<'a>]) -> Result<Self, ReportError> {
+    pub(crate) fn new(entries: &[ReportEntry<'a>], chapters: &[Chapter<'a>]) -> Result<Self, ReportError> {
         let tally = Verdict::ALL.iter().filter_map(|&verdict| {
             let count = entries.iter().filter(|e| e.record.verdict == verdict).count();
             (count > 0).then(|| Tally { verdict: Badge::of(verdict), count })
         });
         let claims = entries.iter().map(Claim::new).collect::<Result<_, _>>()?;
-        Ok(Page { tally: tally.collect(), claims })
+        let chapters = chapters.iter().map(ChapterPage::new).collect();
+        Ok(Page { tally: tally.collect(), claims, chapters })
     }
 }
 

@@ -8,8 +8,8 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment};
 use photonlab_measure::{ImageEntry, Record};
 
-use crate::ReportError;
 use crate::page::Page;
+use crate::{Chapter, ReportError};
 
 /// A record and the bytes of its pictures, by their paths in the record.
 #[derive(Clone, Debug)]
@@ -35,8 +35,8 @@ impl<'a> ReportEntry<'a> {
 }
 
 /// One self-contained HTML page: a summary, then claim by claim what was expected, measured and concluded, in the order
-/// of the entries. No scripts, nothing from outside; failures stand beside passes.
-pub fn report(entries: &[ReportEntry<'_>]) -> Result<String, ReportError> {
+/// of the entries, and chapters behind them. No scripts, nothing from outside; failures stand beside passes.
+pub fn report(entries: &[ReportEntry<'_>], chapters: &[Chapter<'_>]) -> Result<String, ReportError> {
     let mut seen = BTreeSet::new();
     if let Some(twice) = entries.iter().find(|e| !seen.insert(&e.record.claim)) {
         return Err(ReportError::Twice { claim: twice.record.claim.clone() });
@@ -44,5 +44,5 @@ pub fn report(entries: &[ReportEntry<'_>]) -> Result<String, ReportError> {
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);
     environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
-    Ok(environment.render_str(include_str!("report.html"), Serde(Page::new(entries)?))?)
+    Ok(environment.render_str(include_str!("report.html"), Serde(Page::new(entries, chapters)?))?)
 }

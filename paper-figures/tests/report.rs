@@ -66,7 +66,7 @@ fn figure(id: &str) -> FigureData {
 fn page(records: &[Record]) -> String {
     let images = BTreeMap::from([("plane.png".to_owned(), PNG.to_vec())]);
     let entries: Vec<_> = records.iter().map(|record| ReportEntry { record, images: images.clone() }).collect();
-    report(&entries).unwrap()
+    report(&entries, &[]).unwrap()
 }
 
 #[test]
@@ -145,15 +145,15 @@ fn groups_fold_their_comparisons() {
 fn what_is_missing_is_an_error() {
     let one = record("one", Verdict::Holds);
     let bare = ReportEntry { record: &one, images: BTreeMap::new() };
-    assert!(matches!(report(std::slice::from_ref(&bare)), Err(ReportError::MissingImage { .. })));
+    assert!(matches!(report(std::slice::from_ref(&bare), &[]), Err(ReportError::MissingImage { .. })));
     let odd = ReportEntry { record: &one, images: BTreeMap::from([("plane.png".into(), b"GIF89a".to_vec())]) };
-    assert!(matches!(report(&[odd]), Err(ReportError::UnknownImage { .. })));
-    assert!(matches!(report(&[bare.clone(), bare]), Err(ReportError::Twice { .. })));
+    assert!(matches!(report(&[odd], &[]), Err(ReportError::UnknownImage { .. })));
+    assert!(matches!(report(&[bare.clone(), bare], &[]), Err(ReportError::Twice { .. })));
     assert!(matches!(ReportEntry::load(&one, std::path::Path::new("nowhere")), Err(ReportError::Read { .. })));
 
     let mut empty = record("two", Verdict::Holds);
     empty.images.clear();
     empty.figures[0].series.clear();
     let entry = ReportEntry { record: &empty, images: BTreeMap::new() };
-    assert!(matches!(report(&[entry]), Err(ReportError::Figure { .. })));
+    assert!(matches!(report(&[entry], &[]), Err(ReportError::Figure { .. })));
 }

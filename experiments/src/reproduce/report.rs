@@ -3,9 +3,15 @@
 use std::path::Path;
 
 use photonlab_measure::Record;
-use photonlab_paper_figures::{ReportEntry, draw, report};
+use photonlab_paper_figures::{Chapter, ReportEntry, draw, report};
 
 use crate::interrupt::write_whole;
+
+/// What stands behind the claims.
+const CHAPTERS: [Chapter<'_>; 2] = [
+    Chapter { id: "methodology", text: include_str!("../../METHODOLOGY.md") },
+    Chapter { id: "bias", text: include_str!("../../BIAS.md") },
+];
 
 /// Writes every record's figures and the report beside them.
 pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<()> {
@@ -17,5 +23,5 @@ pub(super) fn write(records: &[Record], out: &Path) -> anyhow::Result<()> {
     }
     let folder = out.join("records");
     let entries = records.iter().map(|record| ReportEntry::load(record, &folder)).collect::<Result<Vec<_>, _>>()?;
-    write_whole(&out.join("report.html"), report(&entries)?.as_bytes())
+    write_whole(&out.join("report.html"), report(&entries, &CHAPTERS)?.as_bytes())
 }
