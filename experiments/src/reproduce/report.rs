@@ -8,7 +8,8 @@ use photonlab_paper_figures::{Chapter, ReportEntry, draw, report};
 use crate::interrupt::write_whole;
 
 /// What stands behind the claims.
-const CHAPTERS: [Chapter<'_>; 2] = [
+const CHAPTERS: [Chapter<'_>; 3] = [
+    Chapter { id: "published", text: include_str!("../../PUBLISHED.md") },
     Chapter { id: "methodology", text: include_str!("../../METHODOLOGY.md") },
     Chapter { id: "bias", text: include_str!("../../BIAS.md") },
 ];
