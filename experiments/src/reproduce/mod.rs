@@ -115,6 +115,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
         Claim::Cost,
         Claim::GatherAids,
         Claim::TestedRadii,
+        Claim::Needs,
     ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");

@@ -18,6 +18,7 @@ mod interior;
 mod irradiance_cache;
 mod kd_memory;
 mod knn_bias;
+mod needs;
 mod range_search;
 mod rendering_equation;
 mod sphere_area;
@@ -61,11 +62,12 @@ pub(super) enum Claim {
     Cost,
     GatherAids,
     TestedRadii,
+    Needs,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids and the tested radii are run when they are asked
-    /// for.
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii and the
+    /// needs are run when they are asked for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -119,6 +121,7 @@ impl Claim {
             Claim::Cost => "cost",
             Claim::GatherAids => "gather-aids",
             Claim::TestedRadii => "tested-radii",
+            Claim::Needs => "needs",
         }
     }
 
@@ -152,6 +155,7 @@ impl Claim {
             Claim::Cost => include_str!("../../../definitions/cost.toml"),
             Claim::GatherAids => include_str!("../../../definitions/gather-aids.toml"),
             Claim::TestedRadii => include_str!("../../../definitions/tested-radii.toml"),
+            Claim::Needs => include_str!("../../../definitions/needs.toml"),
         }
     }
 
@@ -185,6 +189,7 @@ impl Claim {
             Claim::Cost => cost::run(context),
             Claim::GatherAids => gather_aids::run(context),
             Claim::TestedRadii => tested_radii::run(context),
+            Claim::Needs => needs::run(context),
         }
     }
 }
