@@ -38,8 +38,11 @@ impl<'a> ReportEntry<'a> {
 /// of the entries, and chapters behind them. No scripts, nothing from outside; failures stand beside passes.
 pub fn report(entries: &[ReportEntry<'_>], chapters: &[Chapter<'_>]) -> Result<String, ReportError> {
     let mut seen = BTreeSet::new();
-    if let Some(twice) = entries.iter().find(|e| !seen.insert(&e.record.claim)) {
+    if let Some(twice) = entries.iter().find(|e| !seen.insert(e.record.claim.as_str())) {
         return Err(ReportError::Twice { claim: twice.record.claim.clone() });
+    }
+    if let Some(twice) = chapters.iter().find(|chapter| chapter.id == "top" || !seen.insert(chapter.id)) {
+        return Err(ReportError::Twice { claim: twice.id.to_string() });
     }
     let mut environment = Environment::new();
     environment.set_auto_escape_callback(|_| AutoEscape::Html);

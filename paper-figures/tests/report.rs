@@ -6,7 +6,7 @@ use photonlab_measure::{
     Axis, Budget, Comparison, Expected, FigureData, Group, ImageEntry, Interval, Point, Record, Run, Series,
     SeriesKind, Verdict,
 };
-use photonlab_paper_figures::{ReportEntry, ReportError, report};
+use photonlab_paper_figures::{Chapter, ReportEntry, ReportError, report};
 
 /// The start of a PNG file; enough to be known as one.
 const PNG: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -156,4 +156,19 @@ fn what_is_missing_is_an_error() {
     empty.figures[0].series.clear();
     let entry = ReportEntry { record: &empty, images: BTreeMap::new() };
     assert!(matches!(report(&[entry], &[]), Err(ReportError::Figure { .. })));
+}
+
+/// Chapters stand behind the claims, named in the head; what is written in them is text.
+#[test]
+fn chapters_stand_behind_the_claims() {
+    let one = record("a", Verdict::Holds);
+    let bare = ReportEntry { record: &one, images: BTreeMap::from([("plane.png".to_owned(), PNG.to_vec())]) };
+    let text = "# Method\n\n<script>alert(1)</script>\n\nSee [a file](file.md).";
+    let chapter = |id| Chapter { id, text };
+    let page = report(std::slice::from_ref(&bare), &[chapter("method")]).unwrap();
+    assert!(page.contains("<a href=\"#method\">Method</a>") && page.contains("<section id=\"method\">"), "{page}");
+    assert!(!page.contains("<script>") && !page.contains("file.md"));
+    for id in ["a", "top"] {
+        assert!(matches!(report(std::slice::from_ref(&bare), &[chapter(id)]), Err(ReportError::Twice { .. })));
+    }
 }

@@ -8,7 +8,7 @@ use std::{
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_readout::{
-    Aids, Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Wanted,
+    Aids, Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Target, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
@@ -151,8 +151,9 @@ impl Lab {
     ) -> Outcome<C> {
         let optics = PassOptics::new(&self.world, response).expect("lamps that count");
         let (world, needs) = (&self.world, &self.needs);
-        let session =
-            Session { world, optics: &optics, needs, settings, confidence: CONFIDENCE, error_over: ErrorOver::Worst };
+        let is_image = cells.first().is_some_and(|cell| matches!(cell.target, Target::Pixel { .. }));
+        let error_over = if is_image { ErrorOver::Image } else { ErrorOver::Worst };
+        let session = Session { world, optics: &optics, needs, settings, confidence: CONFIDENCE, error_over };
         let wanted =
             Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
         let schedule = Schedule::new(&wanted, cells.len(), &session.demands());

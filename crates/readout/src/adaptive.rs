@@ -69,8 +69,8 @@ impl CellRadius {
     /// Light less the bias that the ball of twice the radius tells is an estimate of fourth order. Its noise is larger: of discs the
     /// difference has a twelfth of their variance and is bound to it by minus a quarter, so that a share `w` leaves
     /// `(1 - w)^2 B^2 + s^2 (1 + w / 2 + w^2 / 12)`, least at `w = (B^2 - s^2 / 4) / (B^2 + s^2 / 12)`, for a bias `B` and a variance `s^2` of the
-    /// mean of all passes. The share goes by earlier passes alone, but for the first pass of a picture, whose photons are one of the two looks that
-    /// tuned; and by no less a bias than all cells show together, if they were looked at: taken off where it is large alone, at peaks, and left between them, it would move
+    /// mean of all passes. The share goes by earlier passes alone; that of the first pass by what the two looks
+    /// that tuned have shown, one of which is a picture's first pass itself; and by no less a bias than all cells show together, if they were looked at: taken off where it is large alone, at peaks, and left between them, it would move
     /// the mean over the cells, which balls of one radius keep.
     pub(crate) fn correction(&self, radius: f64, passes: u64, common: &Common) -> f64 {
         let (bend_squared, noise) = if self.weight > 0.0 {
@@ -166,8 +166,8 @@ mod tests {
         }
     }
 
-    /// A cell that shows no bias of its own loses what all cells show, if they were looked at; what places all over the scene show is
-    /// none of its business.
+    /// A cell that surely shows no bias of its own loses what all cells show, if they were looked at, and not what places all over the
+    /// scene show.
     #[test]
     fn no_bias_is_taken_for_less_than_that_of_all_cells() {
         let common = Common { bend_squared: 100.0, is_of_cells: true, ..Common::default() };

@@ -25,14 +25,12 @@ pub(crate) struct Seen {
 }
 
 impl Seen {
-    /// Of the sums of samples at the same points of each cell.
+    /// Of the sums of density estimates at the same points of each cell.
     pub(crate) fn new<const C: usize>(sums: &[[Light<C>; 2]], points: f64) -> Self {
         let mut seen = Self::default();
         for pair in sums {
             let means = pair.each_ref().map(|sum| sum.over(points));
-            // A lamp that a pixel sees is no light that balls read.
-            let is_read = pair[0].reads + pair[1].reads > 0.0;
-            seen.light.push(if is_read { means.each_ref().map(|mean| mean.irradiance.mean()) } else { [0.0; 2] });
+            seen.light.push(means.each_ref().map(|mean| mean.irradiance.mean()));
             seen.poisson += 0.5 * (means[0].noise + means[1].noise);
             seen.photons += pair[0].photons + pair[1].photons;
             seen.reads += pair[0].reads + pair[1].reads;

@@ -91,8 +91,8 @@ impl<const C: usize> Session<'_, C> {
         let bias_squared = squared / (2f64.powf(power) - 1.0).powi(2);
         let best = fall * variance / (2.0 * passes as f64 * power * bias_squared);
         let room = (MOST_PHOTONS / seen.photons_in_ball().max(f64::MIN_POSITIVE)).sqrt();
-        let wider = self.wider() * best.powf(1.0 / (2.0 * power + fall));
-        let last = (radius * wider.min(room)).min(self.largest_radius().max(first));
+        let by = self.wider() * best.powf(1.0 / (2.0 * power + fall));
+        let last = (radius * by.min(room)).min(self.largest_radius().max(first));
         // The radii of cells do not shrink while passes are as many as were expected.
         let mut widest = match self.settings.method {
             Method::Adaptive => last,
