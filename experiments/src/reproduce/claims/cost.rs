@@ -45,9 +45,17 @@ struct Parameters {
     points: u64,
     /// Final-gather rays in all, rising.
     rays: Vec<u64>,
+    /// Emitted meanwhile in the sixteen passes of few rays.
     photons_for_rays: u64,
     /// Largest half-width of a cost of one more over another.
     precision: f64,
+}
+
+impl Parameters {
+    /// As many in each pass whatever the rays: a thinner map has wider balls, and more rays go on to another surface.
+    fn photons_with(&self, rays: u64) -> u64 {
+        self.photons_for_rays * rays.div_ceil(FULL_OF_RAYS).max(PASSES) / PASSES
+    }
 }
 
 /// Costs at rising counts of one kind.
@@ -69,7 +77,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let cells = u64::from(SIZE * SIZE);
     let mut found = Findings { seeds: (p.seed..p.seed + p.replicates).collect(), ..Findings::default() };
     let of_photons: Vec<_> = p.photons.iter().map(|&photons| (photons, photons, p.points)).collect();
-    let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_for_rays, rays.div_ceil(cells))).collect();
+    let of_rays: Vec<_> = p.rays.iter().map(|&rays| (rays, p.photons_with(rays), rays.div_ceil(cells))).collect();
     let growths = [
         Growth::measure("photons", &scene, &of_photons, &p, &mut found)?,
         Growth::measure("rays", &scene, &of_rays, &p, &mut found)?,
