@@ -7,8 +7,8 @@ use photonlab_final_gather::Light;
 pub(crate) struct Sample<const C: usize> {
     /// All of it.
     pub(crate) light: Light<C>,
-    /// What density estimates on surfaces have part in it: neither light that was sampled nor what media scatter, of whose bias such
-    /// estimates know nothing.
+    /// The part of it that density estimates on surfaces found: neither light that was sampled nor what media scatter, of whose bias
+    /// such estimates know nothing.
     pub(crate) estimate: Light<C>,
     /// True if there can be no light: the ray left the scene or met something black.
     pub(crate) dark: bool,
