@@ -76,11 +76,22 @@ pub(crate) fn objections<const C: usize>(result: &CellResult<C>, channel: usize,
     objections
 }
 
+/// True if a cell's error bar can be signed as far as edges go: what few photons or few glints say against it more of them may mend.
+pub(crate) fn is_clear_of_edges<const C: usize>(result: &CellResult<C>) -> bool {
+    let resolved = (0..C).all(|channel| result.unresolved_share(channel) <= RESOLVED);
+    resolved && result.astray.mean().unwrap_or(0.0) <= ASTRAY
+}
+
+/// True if a method cannot find some of the scene's light.
+pub(crate) fn is_blind(world: &World, needs: &Needs, settings: &Settings) -> bool {
+    let has_delta_lamp = world.scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }));
+    settings.method == Method::Path && needs.caustic && has_delta_lamp
+}
+
 /// Why no reading of this method can be certified in this scene, if so.
 /// `leak` is the share of walks from the scene's portals that find another way out.
 pub(crate) fn doubt(world: &World, needs: &Needs, leak: f64, settings: &Settings) -> Option<String> {
-    let has_delta_lamp = world.scene.emitters.iter().any(|e| !matches!(e, Emitter::Environment { .. }));
-    if settings.method == Method::Path && needs.caustic && has_delta_lamp {
+    if is_blind(world, needs, settings) {
         return Some(
             "paths from the eye cannot find a point or directional lamp by way of specular surfaces; every other method can"
                 .into(),

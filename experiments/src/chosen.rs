@@ -18,10 +18,40 @@ use crate::{
 pub(crate) const DEFAULT_ESTIMATOR: Estimator = Estimator::new(Kernel::Disc, AreaModel::Clipped);
 
 impl Options {
-    /// The settings for a scene.
+    /// The settings for a scene; `auto` is the first method, in a fixed order, that uses every option given.
     pub(crate) fn settings(&self, scene: &Scene) -> Result<Settings, Failure> {
         self.refuse_what_is_not_built()?;
-        let name = self.method_name()?;
+        self.settings_of(self.method_name()?, scene)
+    }
+
+    /// The settings of every method that uses every option given, final gather with a cache and without where nobody has decided that.
+    pub(crate) fn all_settings(&self, scene: &Scene) -> Result<Vec<Settings>, Failure> {
+        use MethodName::{Adaptive, Bins, FinalGather, Nearest, Path, Progressive};
+        self.refuse_what_is_not_built()?;
+        let first = self.settings(scene)?;
+        let others =
+            [FinalGather, Progressive, Adaptive, Nearest, Bins, Path].into_iter().filter(|&name| self.fits(name));
+        let mut all: Vec<Settings> = others.filter_map(|name| self.settings_of(name, scene).ok()).collect();
+        if !all.contains(&first) {
+            all.insert(0, first);
+        }
+        let cached = Options { cache: true, ..self.clone() };
+        if cached.fits(FinalGather) {
+            all.extend(cached.settings_of(FinalGather, scene).ok().filter(|settings| !all.contains(settings)));
+        }
+        Ok(all)
+    }
+
+    /// True if `auto` is to find the method that reaches a wanted error soonest: counts and saved photons leave nothing to choose.
+    pub(crate) fn is_planned(&self) -> bool {
+        let counts = [self.photons, self.passes, self.spp];
+        self.method == MethodName::Auto
+            && self.target_error.is_some()
+            && self.map.is_none()
+            && counts.iter().all(Option::is_none)
+    }
+
+    fn settings_of(&self, name: MethodName, scene: &Scene) -> Result<Settings, Failure> {
         for (option, given, users) in self.uses() {
             if given && !users.contains(&name) {
                 let users: Vec<_> = users.iter().map(|user| user.text()).collect();
@@ -126,14 +156,17 @@ impl Options {
         if self.method != MethodName::Auto {
             return Ok(self.method);
         }
-        let uses = self.uses();
-        let fits = |name: MethodName| uses.iter().all(|(_, given, users)| !given || users.contains(&name));
         let order = [MethodName::FinalGather, MethodName::Radius, MethodName::Nearest, MethodName::Path];
-        order.into_iter().find(|&name| fits(name)).ok_or_else(|| {
+        order.into_iter().find(|&name| self.fits(name)).ok_or_else(|| {
             let given: Vec<_> =
-                uses.iter().filter(|(_, given, _)| *given).map(|(option, ..)| format!("--{option}")).collect();
+                self.uses().iter().filter(|(_, given, _)| *given).map(|(option, ..)| format!("--{option}")).collect();
             Failure::usage(format!("no method uses all of {}; leave one out", given.join(", ")))
         })
+    }
+
+    /// True if a method uses every option given.
+    fn fits(&self, name: MethodName) -> bool {
+        self.uses().iter().all(|(_, given, users)| !given || users.contains(&name))
     }
 
     /// The options that not every method uses, whether each was given, and the methods that use it.

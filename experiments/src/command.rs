@@ -126,6 +126,18 @@ pub(crate) struct Options {
     pub(crate) units: UnitsName,
 }
 
+impl Options {
+    /// What holds where nothing is given.
+    pub(crate) fn usual() -> Self {
+        #[derive(Parser)]
+        struct Alone {
+            #[command(flatten)]
+            options: Options,
+        }
+        Alone::parse_from([""]).options
+    }
+}
+
 #[derive(Args)]
 pub(crate) struct Reproduce {
     /// Claims by name; none means all.
@@ -180,7 +192,7 @@ pub(crate) struct Render {
 pub(crate) struct Plan {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// The wanted error.
+    /// Lets methods race, for a few seconds at most, to intervals of this half-width over the value (1% or 0.01), and foretells their time.
     #[arg(long, value_name = "E", allow_hyphen_values = true, value_parser = number::share)]
     pub(crate) target_error: Option<f64>,
 }

@@ -22,6 +22,7 @@ mod map;
 mod measure;
 mod number;
 mod plan;
+mod planned;
 mod progress;
 mod render;
 mod reproduce;

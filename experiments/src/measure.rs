@@ -4,7 +4,7 @@ use std::{io::Write, time::Instant};
 
 use photonlab_measure::{FluxBook, FluxLedger, Measurement, Need, Place, Reading, Stopped, student_t_quantile};
 use photonlab_photometry::{Colour, PathClass, Response};
-use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Source, Target};
+use photonlab_readout::{Cell, ErrorOver, Method, Outcome, Session, Settings, Target};
 use photonlab_scene::{Receiver, Scene};
 use photonlab_trace::{Book, Ledger};
 
@@ -14,8 +14,8 @@ use crate::{
     command::{self, MethodName, Options},
     fixed_command::fixed_command,
     goniometer::LuminaireFile,
-    loaded::{Loaded, channel_names, open_map, optics, read_failure, schedule, sensors, wanted},
-    progress::Progress,
+    loaded::{Loaded, channel_names, open_map, optics, sensors},
+    planned::read,
     system,
 };
 
@@ -56,9 +56,7 @@ fn run<const C: usize>(
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let session = Session { world, optics: &optics, needs, settings, confidence, error_over: ErrorOver::Worst };
-    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
-    let source = map.as_ref().map_or(Source::Trace, Source::Map);
-    let outcome = session.run(cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
+    let (settings, outcome) = read(options, &session, cells, map.as_ref())?;
     warn(&outcome);
     warn_of_unsent(&outcome, options.photons);
     Ok(Measurement {
@@ -120,17 +118,20 @@ fn method_for(cells: &[Cell], asked: MethodName) -> MethodName {
 
 /// Refuses a method that cannot read one of the meters.
 fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(), Failure> {
+    let Some((cell, why)) = unreadable(cells, settings) else { return Ok(()) };
+    let id = &scene.sensors[cell.sensor].id;
+    Err(Failure::usage(format!("sensor `{id}`: {why}; --sensor ID reads one sensor by itself")))
+}
+
+/// A cell that a method cannot read, and why.
+pub(crate) fn unreadable<'c>(cells: &'c [Cell], settings: &Settings) -> Option<(&'c Cell, &'static str)> {
     let counts = settings.method == Method::Bins;
-    let wrong = cells.iter().find_map(|cell| match cell.target {
+    cells.iter().find_map(|cell| match cell.target {
         Target::Leaving { .. } if !counts => Some((cell, "an intensitymeter is read by --method bins alone")),
-        Target::Along(_) | Target::Distant { .. } if counts => {
+        Target::Along(_) | Target::Distant { .. } | Target::Pixel { .. } if counts => {
             Some((cell, "photons cannot be counted along a ray; leave out --method bins"))
         }
         _ => None,
-    });
-    wrong.map_or(Ok(()), |(cell, why)| {
-        let id = &scene.sensors[cell.sensor].id;
-        Err(Failure::usage(format!("sensor `{id}`: {why}; --sensor ID reads one sensor by itself")))
     })
 }
 

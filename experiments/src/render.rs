@@ -2,7 +2,7 @@
 
 use photonlab_measure::student_t_quantile;
 use photonlab_photometry::{Channels, Response, UnitSystem};
-use photonlab_readout::{Cell, ErrorOver, Outcome, Session, Source};
+use photonlab_readout::{Cell, ErrorOver, Outcome, Session};
 use photonlab_scene::{Film, Receiver};
 
 use crate::{
@@ -11,9 +11,9 @@ use crate::{
     command,
     fixed_command::fixed_command,
     image::{Image, Layers},
-    loaded::{Loaded, open_map, optics, read_failure, schedule, sensors, wanted},
+    loaded::{Loaded, open_map, optics, sensors},
     measure::{warn, warn_of_unsent},
-    progress::Progress,
+    planned::read,
     system,
 };
 
@@ -73,9 +73,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
     let session = Session { world, optics: &optics, needs, settings, confidence, error_over: ErrorOver::Image };
-    let schedule = schedule(&session, &wanted(options, map.as_ref())?, cells.len());
-    let source = map.as_ref().map_or(Source::Trace, Source::Map);
-    let outcome = session.run(&cells, &schedule, &source, &Progress::new(&schedule.ends)).map_err(read_failure)?;
+    let (settings, outcome) = read(options, &session, &cells, map.as_ref())?;
     warn(&outcome);
     warn_of_unsent(&outcome, options.photons);
     if let Some(doubt) = doubt(&loaded.world, &loaded.needs, loaded.leak, &settings) {

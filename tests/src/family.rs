@@ -114,6 +114,7 @@ pub const SUITE: &[(&str, usize)] = &[
     ("cached floor with a wall", 6),
     ("aided cube", 4),
     ("aided room", 4),
+    ("raced to a target", 1),
 ];
 
 /// The comparisons of one test. They are judged together by [`Family::decide`].

@@ -7,8 +7,10 @@ use std::{
 
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
+use photonlab_planner::{Candidate, Forecast, Planner};
 use photonlab_readout::{
-    Aids, Cell, Direct, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source, Target, Wanted,
+    Aids, Cell, CellResult, Direct, Ends, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source,
+    Target, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
 use photonlab_scene::{
@@ -17,7 +19,7 @@ use photonlab_scene::{
 };
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
 
-/// Confidence of the intervals that may end a run; no test of this crate ends one by its error.
+/// Confidence of the intervals that may end a run.
 const CONFIDENCE: f64 = 0.95;
 
 /// A scene ready for photons and readings.
@@ -25,6 +27,18 @@ pub struct Lab {
     /// The scene.
     pub world: World,
     needs: Needs,
+}
+
+/// How a race ended.
+pub struct Raced<const C: usize> {
+    /// How many entered.
+    pub entrants: usize,
+    /// Those of the winner.
+    pub settings: Settings,
+    /// What was foretold of it.
+    pub forecast: Option<Forecast>,
+    /// What it found.
+    pub outcome: Outcome<C>,
 }
 
 struct Silent;
@@ -140,6 +154,46 @@ impl Lab {
         self.read(&Cell::of_sensor(&self.world.scene, 0), Response::Radiometric, settings, photons, passes, spp)
     }
 
+    /// Lets methods race to a wanted error over all meters, and goes on with the first.
+    pub fn race<const C: usize>(&self, settings: &[Settings], target: f64) -> Raced<C> {
+        let cells = Cell::of_meters(&self.world.scene);
+        let optics = PassOptics::new(&self.world, Response::Radiometric).expect("lamps that count");
+        let session = self.session(&optics, settings[0], ErrorOver::Worst);
+        let candidates = Candidate::of(settings, &session);
+        let (cells, trusts) = (&cells, &|_: &CellResult<C>| true);
+        let planner = Planner { session, cells, target, time_limit: None, patience: None, trusts };
+        let plan = planner.race(&candidates).expect("a scene that can be read");
+        let (settings, forecast) = (plan.settings(), plan.forecast);
+        let entrants = plan.entrants.len();
+        Raced { entrants, settings, forecast, outcome: plan.go_on(&Silent).expect("a scene that can be read") }
+    }
+
+    /// Reads every meter in passes of so many photons and points, looking at the run after each of some before it goes on.
+    pub fn measure_looking<const C: usize>(&self, settings: Settings, counts: [u64; 3], looks: u64) -> Outcome<C> {
+        let [photons, passes, samples] = counts;
+        let cells = Cell::of_meters(&self.world.scene);
+        let optics = PassOptics::new(&self.world, Response::Radiometric).expect("lamps that count");
+        let session = self.session(&optics, settings, ErrorOver::Worst);
+        let ends = Ends { passes: Some(passes), target_error: None, time_limit: None };
+        let schedule = Schedule::of_passes(photons, samples, ends, &session.demands());
+        let mut ongoing = session.begin(&cells, &schedule).expect("a scene that can be read");
+        for _ in 0..looks {
+            ongoing.pass().expect("a pass");
+            let _ = (ongoing.error(), ongoing.error_after(1000));
+        }
+        ongoing.go_on(&Silent).expect("a scene that can be read")
+    }
+
+    fn session<'s, const C: usize>(
+        &'s self,
+        optics: &'s PassOptics<C>,
+        settings: Settings,
+        error_over: ErrorOver,
+    ) -> Session<'s, C> {
+        let (world, needs) = (&self.world, &self.needs);
+        Session { world, optics, needs, settings, confidence: CONFIDENCE, error_over }
+    }
+
     fn read<const C: usize>(
         &self,
         cells: &[Cell],
@@ -150,10 +204,9 @@ impl Lab {
         samples: u64,
     ) -> Outcome<C> {
         let optics = PassOptics::new(&self.world, response).expect("lamps that count");
-        let (world, needs) = (&self.world, &self.needs);
         let is_image = cells.first().is_some_and(|cell| matches!(cell.target, Target::Pixel { .. }));
         let error_over = if is_image { ErrorOver::Image } else { ErrorOver::Worst };
-        let session = Session { world, optics: &optics, needs, settings, confidence: CONFIDENCE, error_over };
+        let session = self.session(&optics, settings, error_over);
         let wanted =
             Wanted { photons: Some(photons), passes: Some(passes), samples: Some(samples), ..Wanted::default() };
         let schedule = Schedule::new(&wanted, cells.len(), &session.demands());

@@ -47,9 +47,9 @@ impl<const C: usize> Colour<C> {
         Colour([value; C])
     }
 
-    /// The first `C` channels of an RGB triple; a grey scene's triples are equal in all channels.
+    /// The first `C` channels of an RGB triple, of more the last again; a grey scene's triples are equal in all channels.
     pub fn from_rgb(rgb: [f64; 3]) -> Self {
-        Colour(std::array::from_fn(|c| rgb[c]))
+        Colour(std::array::from_fn(|c| rgb[c.min(2)]))
     }
 
     /// Single precision, as stored in a photon.

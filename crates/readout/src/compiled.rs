@@ -1,10 +1,12 @@
 //! Whole runs, compiled here for every number of channels.
 
+use std::time::Duration;
+
 use photonlab_photometry::{WAVELENGTHS, compiled};
 
-use crate::{Cell, Observer, Outcome, ReadError, Schedule, Session, Source};
+use crate::{Cell, Observer, Ongoing, Outcome, ReadError, Schedule, Session, Source};
 
-/// [`Session::run`] in `C` channels.
+/// [`Session::run`] in `C` channels, and the passes of an [`Ongoing`] run.
 pub(crate) trait Runner<const C: usize>: Sync {
     fn run(
         &self,
@@ -14,6 +16,10 @@ pub(crate) trait Runner<const C: usize>: Sync {
         source: &Source<'_, C>,
         observer: &dyn Observer,
     ) -> Result<Outcome<C>, ReadError>;
+
+    fn pass(&self, ongoing: &mut Ongoing<'_, C>) -> Result<Duration, ReadError>;
+
+    fn go_on(&self, ongoing: Ongoing<'_, C>, observer: &dyn Observer) -> Result<Outcome<C>, ReadError>;
 }
 
 struct Compiled;
@@ -29,7 +35,19 @@ macro_rules! compile {
                 source: &Source<'_, { $channels }>,
                 observer: &dyn Observer,
             ) -> Result<Outcome<{ $channels }>, ReadError> {
-                session.run_passes(cells, schedule, source, observer)
+                session.run_here(cells, schedule, source, observer)
+            }
+
+            fn pass(&self, ongoing: &mut Ongoing<'_, { $channels }>) -> Result<Duration, ReadError> {
+                ongoing.one_pass()
+            }
+
+            fn go_on(
+                &self,
+                ongoing: Ongoing<'_, { $channels }>,
+                observer: &dyn Observer,
+            ) -> Result<Outcome<{ $channels }>, ReadError> {
+                ongoing.go_on_here(observer)
             }
         }
     )*};

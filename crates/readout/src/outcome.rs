@@ -5,6 +5,8 @@ use photonlab_measure::{Replicates, Stopped, student_t_quantile};
 use photonlab_photometry::{Channels, Colour};
 use photonlab_trace::Ledger;
 
+use crate::outlook::Laws;
+
 /// A ball at the corner of a flat surface holds a quarter of its disc, so an estimate made there lacks up to three times
 /// itself (catalogue B2). Narrower pieces of surface can lack more: readings that rest on such estimates for more than a
 /// trifle are not certified.
@@ -216,6 +218,25 @@ impl ErrorOver {
                 + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs()
                 + cell.rare_bound(c)
                 + cell.grain_bound(c);
+            t * noise + known
+        })
+    }
+
+    /// The same after more passes, by the laws of noise and bias.
+    pub(crate) fn expected<const C: usize>(
+        self,
+        cells: &[CellResult<C>],
+        results: usize,
+        confidence: f64,
+        laws: &Laws,
+    ) -> Option<f64> {
+        let t = student_t_quantile(confidence, (laws.passes - 1) as f64);
+        self.combine(cells, results, confidence, |cell, c, _| {
+            let noise = laws.noise(&cell.value[c]) + OF_BIAS_NOISE * laws.noise_of_bias(&cell.bias[c]);
+            let known = laws.size_of_bias(&cell.bias[c])
+                + MISSING_AT_MOST * laws.size_of_bias(&cell.unresolved[c])
+                + laws.by_count(cell.rare_bound(c))
+                + laws.by_count(cell.grain_bound(c));
             t * noise + known
         })
     }

@@ -1,5 +1,7 @@
 //! One pass of a session.
 
+use std::ops::Range;
+
 use photonlab_final_gather::{Guide, Light, Sites, UNGUIDED};
 use photonlab_gather::Scratch;
 use photonlab_photometry::Colour;
@@ -35,6 +37,8 @@ const FEWEST_NEAREST: f64 = 8.0;
 
 /// Samples that one task takes of one cell.
 const BLOCK: u64 = 256;
+/// Tasks of all cells together, whose findings are added up before the next begin.
+const BLOCKS: u64 = 1 << 12;
 
 impl<const C: usize> Session<'_, C> {
     /// One pass: photons, maps, every cell.
@@ -252,13 +256,32 @@ fn guides<const C: usize>(look: &Look<'_, C>, cells: &[Cell]) -> Vec<Option<Guid
     numbered.map_init(Scratch::default, |scratch, (number, cell)| look.guide(cell, number, scratch)).collect()
 }
 
-/// What the samples of each cell found together.
+/// What the samples of each cell found together. So many samples of all cells are taken at a time that what they found needs little memory.
 pub(crate) fn read<const C: usize>(look: &Look<'_, C>, cells: &[Cell], radii: &[f64]) -> Vec<Sample<C>> {
     let blocks = look.samples.div_ceil(BLOCK);
-    let found: Vec<Sample<C>> = (0..cells.len() as u64 * blocks)
+    let at_a_time = (BLOCKS / cells.len().max(1) as u64).max(1);
+    let mut found = vec![Sample::default(); cells.len()];
+    for first in (0..blocks).step_by(at_a_time as usize) {
+        let together = first..(first + at_a_time).min(blocks);
+        let parts = read_blocks(look, cells, radii, together.clone());
+        let of_cells = parts.chunks((together.end - together.start) as usize);
+        found.iter_mut().zip(of_cells).for_each(|(sum, parts)| parts.iter().for_each(|part| sum.add(part)));
+    }
+    found
+}
+
+/// What some blocks of each cell's samples found, cell by cell.
+fn read_blocks<const C: usize>(
+    look: &Look<'_, C>,
+    cells: &[Cell],
+    radii: &[f64],
+    blocks: Range<u64>,
+) -> Vec<Sample<C>> {
+    let of_cell = blocks.end - blocks.start;
+    (0..cells.len() as u64 * of_cell)
         .into_par_iter()
         .map_init(Scratch::default, |scratch, task| {
-            let (number, block) = ((task / blocks) as usize, task % blocks);
+            let (number, block) = ((task / of_cell) as usize, blocks.start + task % of_cell);
             let shift = look.shift(number);
             let mut sum = Sample::default();
             for sample in block * BLOCK..((block + 1) * BLOCK).min(look.samples) {
@@ -266,13 +289,7 @@ pub(crate) fn read<const C: usize>(look: &Look<'_, C>, cells: &[Cell], radii: &[
             }
             sum
         })
-        .collect();
-    let of_cell = |parts: &[Sample<C>]| {
-        let mut sum = Sample::default();
-        parts.iter().for_each(|part| sum.add(part));
-        sum
-    };
-    found.chunks(blocks as usize).map(of_cell).collect()
+        .collect()
 }
 
 /// Photons of a nearest-photon estimate, as many as were chosen in the first pass or fewer in later ones: the squared radius shrinks as

@@ -124,6 +124,19 @@ impl Schedule {
         }
     }
 
+    /// As many photons and points per cell in each pass, or as few as a session's demands allow, until something ends the run.
+    pub fn of_passes(photons: u64, samples: u64, ends: Ends, demands: &Demands) -> Self {
+        let photons = if demands.fewest_photons > 0 { photons.clamp(demands.fewest_photons, LARGEST_PASS) } else { 0 };
+        let samples = samples.clamp(1, demands.most_samples);
+        Self {
+            ends,
+            photons: Share::Each(photons),
+            samples: Share::Each(samples),
+            fewest_photons: demands.fewest_photons,
+            usual_samples: samples,
+        }
+    }
+
     /// Emitted paths in a pass.
     pub fn photons(&self, pass: u64) -> u64 {
         self.photons.of_pass(pass)

@@ -2,25 +2,16 @@
 
 use std::time::{Duration, Instant};
 
-use photonlab_measure::Stopped;
 use photonlab_photometry::Channels;
 use photonlab_sampling::{NothingCounts, PassOptics, PlanError, Sought};
 use photonlab_scene::{Needs, World};
 use photonlab_trace::{Classes, TraceError};
 
 use crate::{
-    Cell, Demands, Direct, ErrorOver, MapFile, Method, Outcome, Schedule, Settings, compiled::runner, run::Run,
-    trace_pass,
+    Cell, Demands, Direct, ErrorOver, MapFile, Method, Ongoing, Outcome, Schedule, Settings, compiled::runner,
+    run::Run, trace_pass,
 };
 
-/// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
-const PASSES_BEFORE_STOPPING: u64 = 16;
-/// Passes before a target is given up as out of reach.
-const PASSES_BEFORE_GIVING_UP: u64 = 64;
-/// Growth of the number of passes between two looks at the error. Every look is a chance to stop on a lucky error bar.
-const LOOK_GROWTH: f64 = 1.1;
-/// A run that only its error could end stops here and says so.
-const MOST_PASSES: u64 = 100_000;
 /// Passes that a time limit should hold at least, and by how much the pilot that plans them is smaller than a usual pass.
 const PASSES_IN_TIME: f64 = 20.0;
 const PILOT: u64 = 64;
@@ -28,6 +19,7 @@ const PILOT: u64 = 64;
 const STEADY_PHOTONS: u64 = 64;
 
 /// Where a session's photons come from.
+#[derive(Clone, Copy)]
 pub enum Source<'f, const C: usize> {
     /// Traced as the passes need them.
     Trace,
@@ -69,6 +61,7 @@ pub enum ReadError {
 }
 
 /// A scene being read.
+#[derive(Clone, Copy)]
 pub struct Session<'w, const C: usize> {
     /// The scene.
     pub world: &'w World,
@@ -82,6 +75,17 @@ pub struct Session<'w, const C: usize> {
     pub confidence: f64,
     /// How the cells' errors make the one that may end the run.
     pub error_over: ErrorOver,
+}
+
+impl<'w, const C: usize> Session<'w, C> {
+    /// A run with photons of its own that is looked at between its passes, and perhaps gone on with. Its clock starts now.
+    pub fn begin<'c>(&self, cells: &'c [Cell], schedule: &Schedule) -> Result<Ongoing<'c, C>, ReadError>
+    where
+        'w: 'c,
+    {
+        self.check_steady()?;
+        Ok(Ongoing::new(*self, cells, *schedule, Source::Trace, Instant::now()))
+    }
 }
 
 impl<const C: usize> Session<'_, C> {
@@ -135,7 +139,7 @@ impl<const C: usize> Session<'_, C> {
         runner().run(self, cells, schedule, source, observer)
     }
 
-    pub(crate) fn run_passes(
+    pub(crate) fn run_here(
         &self,
         cells: &[Cell],
         schedule: &Schedule,
@@ -144,39 +148,8 @@ impl<const C: usize> Session<'_, C> {
     ) -> Result<Outcome<C>, ReadError> {
         let start = Instant::now();
         self.check_steady()?;
-        let schedule = &self.fit_into_time(cells, schedule, source, start)?;
-        let mut run = Run::new(cells.len());
-        let passes = passes_at_hand(schedule, source);
-        let mut next_look = PASSES_BEFORE_STOPPING;
-        let mut longest = Duration::ZERO;
-        loop {
-            let begun = Instant::now();
-            self.pass(&mut run, cells, schedule, source)?;
-            longest = longest.max(begun.elapsed());
-            let done = run.passes;
-            let looks = done >= next_look;
-            let error = looks.then(|| self.error_over.of(&run.cells, self.optics.results(), self.confidence)).flatten();
-            observer.pass_done(done, start.elapsed(), error);
-            if looks {
-                next_look = ((done as f64 * LOOK_GROWTH).ceil() as u64).max(done + 1);
-            }
-            let reached = schedule.ends.target_error.zip(error).is_some_and(|(target, error)| error <= target);
-            let stopped = if reached {
-                Some(Stopped::Target)
-            } else if looks && self.target_is_out_of_reach(&run, schedule.ends.target_error) {
-                run.out_of_reach = true;
-                Some(Stopped::Count)
-            } else if passes.unwrap_or(MOST_PASSES) <= done {
-                Some(Stopped::Count)
-            } else if schedule.ends.time_limit.is_some_and(|limit| start.elapsed() + longest > limit) {
-                Some(Stopped::Time)
-            } else {
-                None
-            };
-            if let Some(stopped) = stopped {
-                return Ok(run.finish(self, stopped));
-            }
-        }
+        let schedule = self.fit_into_time(cells, schedule, source, start)?;
+        Ongoing::new(*self, cells, schedule, *source, start).go_on_here(observer)
     }
 
     /// Follows some photons where a medium loses no light: one without an end would hold a ray from an eye for ever, and only
@@ -188,26 +161,6 @@ impl<const C: usize> Session<'_, C> {
         let optics = self.optics.any();
         let photons = STEADY_PHOTONS.max(optics.lamps.lamps.len() as u64);
         trace_pass(self.world, optics, &self.settings, (Sought::AsEmitted, Classes::NONE), u32::MAX, photons).map(drop)
-    }
-
-    /// True if more passes cannot bring the error down to the target: the bias of a radius that does not shrink, or light
-    /// gathered across an edge, or nothing found at all, is beyond it already.
-    fn target_is_out_of_reach(&self, run: &Run<C>, target: Option<f64>) -> bool {
-        let Some(target) = target else { return false };
-        let shrinks = match self.settings.method {
-            // The sites of a cache stay where they are, and what it errs between them with them.
-            Method::FinalGather { .. } if self.caches() => false,
-            Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
-            Method::Nearest { k } => k.is_none(),
-            Method::Adaptive | Method::Path | Method::Bins => true,
-        };
-        // What shrinks is given more passes before it is given up.
-        let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
-        run.passes >= patience
-            && self
-                .error_over
-                .floor_of(&run.cells, self.optics.results(), self.confidence)
-                .is_none_or(|floor| floor > target)
     }
 
     /// Divides the passes, after a pilot whose work is not used, so that enough of them end within the time limit.

@@ -26,9 +26,11 @@ mod face_edges;
 mod faces;
 mod far;
 mod field;
+mod fnv;
 mod furnace;
 mod gathered;
 mod growth;
+mod hindsight;
 mod lab;
 mod lamp_caustic;
 mod photon_law;
@@ -116,6 +118,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
         Claim::GatherAids,
         Claim::TestedRadii,
         Claim::Needs,
+        Claim::Planner,
     ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");

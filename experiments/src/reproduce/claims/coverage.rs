@@ -18,6 +18,7 @@ use crate::{
         context::{Context, Findings},
         covered::{Covered, LEVELS, Made, Run, Truth, USUAL},
         far::{self, Far},
+        fnv::fnv1a,
         lab::Lab,
         table::row,
     },
@@ -123,11 +124,6 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     ];
     let (verdict, reason) = conclude(&p, &parts, &far, &found.comparisons);
     Ok(context.record(found, verdict, reason))
-}
-
-/// FNV-1a in 64 bits: the same on every machine, and beyond anyone's wishes.
-fn fnv1a(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
 }
 
 /// Every meter that a method reads, by every seed, as the command would judge it; and the answers.

@@ -19,6 +19,7 @@ mod irradiance_cache;
 mod kd_memory;
 mod knn_bias;
 mod needs;
+mod planner;
 mod range_search;
 mod rendering_equation;
 mod sphere_area;
@@ -63,11 +64,12 @@ pub(super) enum Claim {
     GatherAids,
     TestedRadii,
     Needs,
+    Planner,
 }
 
 impl Claim {
-    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii and the
-    /// needs are run when they are asked for.
+    /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii, the
+    /// needs and the planner are run when they are asked for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -122,6 +124,7 @@ impl Claim {
             Claim::GatherAids => "gather-aids",
             Claim::TestedRadii => "tested-radii",
             Claim::Needs => "needs",
+            Claim::Planner => "planner",
         }
     }
 
@@ -156,6 +159,7 @@ impl Claim {
             Claim::GatherAids => include_str!("../../../definitions/gather-aids.toml"),
             Claim::TestedRadii => include_str!("../../../definitions/tested-radii.toml"),
             Claim::Needs => include_str!("../../../definitions/needs.toml"),
+            Claim::Planner => include_str!("../../../definitions/planner.toml"),
         }
     }
 
@@ -190,6 +194,7 @@ impl Claim {
             Claim::GatherAids => gather_aids::run(context),
             Claim::TestedRadii => tested_radii::run(context),
             Claim::Needs => needs::run(context),
+            Claim::Planner => planner::run(context),
         }
     }
 }

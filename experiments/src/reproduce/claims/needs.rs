@@ -54,6 +54,7 @@ struct Parameters {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Part {
     ThreeChannels,
+    Wavelengths,
     CausticMap,
     SurfaceMap,
     VolumeMap,
@@ -61,11 +62,13 @@ enum Part {
 }
 
 impl Part {
-    const ALL: [Self; 5] = [Self::ThreeChannels, Self::CausticMap, Self::SurfaceMap, Self::VolumeMap, Self::Everything];
+    const ALL: [Self; 6] =
+        [Self::ThreeChannels, Self::Wavelengths, Self::CausticMap, Self::SurfaceMap, Self::VolumeMap, Self::Everything];
 
     fn name(self) -> &'static str {
         match self {
             Self::ThreeChannels => "three channels",
+            Self::Wavelengths => "wavelengths",
             Self::CausticMap => "caustic map",
             Self::SurfaceMap => "surface map",
             Self::VolumeMap => "volume map",
@@ -77,8 +80,12 @@ impl Part {
     fn added_to(self, needs: &Needs) -> Option<Needs> {
         let mut with = needs.clone();
         let all = self == Self::Everything;
-        if (all || self == Self::ThreeChannels) && with.channels == Channels::Grey {
+        if self == Self::ThreeChannels && with.channels == Channels::Grey {
             with.channels = Channels::Rgb;
+        }
+        // As many channels as a scene with wavelengths has; in a coloured one each would be one of three.
+        if (all || self == Self::Wavelengths) && with.channels == Channels::Grey {
+            with.channels = Channels::Spectral;
         }
         with.caustic |= all || self == Self::CausticMap;
         with.indirect |= all || self == Self::SurfaceMap;

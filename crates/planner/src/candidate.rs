@@ -1,0 +1,99 @@
+//! A method with its settings, as it enters.
+
+use photonlab_readout::{Demands, Ends, Method, Schedule, Session, Settings};
+
+/// Photons and rays of the shortest pass: a millisecond or two.
+const PHOTONS: f64 = 1024.0;
+const RAYS: f64 = 2048.0;
+
+/// A way to read a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The method and all that decides its bits.
+    pub settings: Settings,
+    /// How photons and rays share a pass.
+    pub balance: Balance,
+}
+
+/// What there is more of in a pass. The noise of final gather is a / photons + b / rays + c / (photons rays) (Ershov and Voloboy), so that neither
+/// alone brings it down; the best share follows from the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// Four times as many photons to a ray as usual.
+    Photons,
+    /// Two rays to a photon, or one to a cell.
+    Even,
+    /// A quarter of the photons to a ray.
+    Rays,
+}
+
+impl Balance {
+    /// Factors of photons and of rays, whose product is one.
+    fn factors(self) -> [f64; 2] {
+        match self {
+            Balance::Photons => [2.0, 0.5],
+            Balance::Even => [1.0, 1.0],
+            Balance::Rays => [0.5, 2.0],
+        }
+    }
+}
+
+impl Candidate {
+    /// The candidates of several settings, none of which another makes superfluous. Where final gather reads no map, rays to lamps find all
+    /// light there is, and nothing else is needed.
+    pub fn of<const C: usize>(settings: &[Settings], session: &Session<'_, C>) -> Vec<Candidate> {
+        let with = |settings: Settings| Session { settings, ..*session };
+        let gathers = |settings: &&Settings| matches!(settings.method, Method::FinalGather { .. });
+        let needs_no_map = |settings: &&Settings| with(**settings).demands().fewest_photons == 0;
+        if let Some(&alone) = settings.iter().filter(gathers).find(needs_no_map) {
+            return vec![Candidate { settings: alone, balance: Balance::Even }];
+        }
+        let balances = |settings: &Settings| -> &[Balance] {
+            match settings.method {
+                Method::FinalGather { .. } if settings.aids.cache && !with(*settings).reads_reflected() => &[],
+                Method::FinalGather { .. } if settings.aids.cache => &[Balance::Even],
+                Method::FinalGather { .. } => &[Balance::Even, Balance::Photons, Balance::Rays],
+                Method::Radius { .. } | Method::Adaptive => &[Balance::Photons, Balance::Even],
+                Method::Nearest { .. } | Method::Path | Method::Bins => &[Balance::Even],
+            }
+        };
+        let of = |settings: &Settings| {
+            let settings = *settings;
+            balances(&settings).iter().map(move |&balance| Candidate { settings, balance })
+        };
+        settings.iter().flat_map(of).collect()
+    }
+
+    /// The method, and what it has more of.
+    pub fn title(&self) -> String {
+        let mut title = match self.settings.method {
+            Method::Radius { radius: None } => "progressive".to_string(),
+            method => method.name().into(),
+        };
+        for (text, given) in [(" --cache", self.settings.aids.cache), (" --guided", self.settings.aids.guide)] {
+            title.push_str(if given { text } else { "" });
+        }
+        title.push_str(match self.balance {
+            Balance::Photons => ", more photons",
+            Balance::Even => "",
+            Balance::Rays => ", more rays",
+        });
+        title
+    }
+
+    /// True if it chooses places in the whole scene before its first pass.
+    pub(crate) fn starts_slowly(&self) -> bool {
+        self.settings.aids.cache
+    }
+
+    /// Passes that are so many times as long as the shortest.
+    pub fn schedule(&self, cells: usize, demands: &Demands, scale: f64, ends: Ends) -> Schedule {
+        let [more_photons, more_rays] = self.balance.factors();
+        let rays_of_point = cells.max(1) as f64 * f64::from(demands.gather_rays);
+        let samples = (scale * RAYS * more_rays / rays_of_point).clamp(1.0, demands.most_samples as f64).round();
+        // Of many cells the shortest pass has one point each, and photons to match.
+        let matching = samples * rays_of_point * PHOTONS / RAYS * more_photons / more_rays;
+        let photons = (scale * PHOTONS * more_photons).max(matching).round();
+        Schedule::of_passes(photons as u64, samples as u64, ends, demands)
+    }
+}

@@ -1,0 +1,18 @@
+//! Which method reaches a wanted error soonest.
+//!
+//! Every method that could read the cells runs a few short passes on the scene itself. What they show of noise, bias and time is carried on to
+//! the wanted error by the laws of each method; the slow ones are dropped, the others go on (successive halving, Jamieson and Talwalkar 2016).
+//! The winner's passes count in its result where they need not be longer.
+#![forbid(unsafe_code)]
+
+mod candidate;
+mod field;
+mod forecast;
+mod plan;
+mod planner;
+mod trial;
+
+pub use candidate::{Balance, Candidate};
+pub use forecast::Forecast;
+pub use plan::{Entrant, Plan};
+pub use planner::{Planner, PlanningError};
