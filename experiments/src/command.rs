@@ -23,9 +23,9 @@ pub(crate) enum Command {
     Measure(Measure),
     /// An image with its error layers.
     Render(Render),
-    /// What a scene needs, and why.
+    /// What a scene needs and why; with a wanted error, which method reaches it soonest.
     Plan(Plan),
-    /// Speed against accuracy of every method on a scene (not built yet).
+    /// Speed against accuracy of every method on a scene: two figures and their numbers.
     Chart(Chart),
     /// Save and describe photon maps.
     Map(Map),
@@ -45,7 +45,8 @@ pub(crate) struct SceneArguments {
 /// How light is found, shared by `measure`, `render` and `map build`.
 #[derive(Args, Clone)]
 pub(crate) struct Options {
-    /// How light at a point is found; progressive is radius without --radius: tuned, shrinking from pass to pass, and with the bias taken off
+    /// How light at a point is found. auto with --target-error, and neither counts nor a map, lets methods race by short passes and goes on
+    /// with the soonest; else it is final-gather, or the first that uses every option given. progressive is radius without --radius: tuned, shrinking from pass to pass, and with the bias taken off
     /// that wider balls tell (a radius of your own is read plainly).
     #[arg(long, value_enum, default_value = "auto")]
     pub(crate) method: MethodName,
@@ -106,7 +107,8 @@ pub(crate) struct Options {
     /// Seed of all random numbers.
     #[arg(long, value_name = "S", allow_hyphen_values = true, default_value_t = 0)]
     pub(crate) seed: u64,
-    /// Threads [default: all cores]. No result depends on it.
+    /// Threads [default: all cores]. No result depends on it, but by the clock: of a race, or of --time-limit; the command that a result
+    /// names gives its bits whatever the clock.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = number::threads)]
     pub(crate) threads: Option<u32>,
     /// Where to compute.
@@ -201,7 +203,7 @@ pub(crate) struct Plan {
 pub(crate) struct Chart {
     #[command(flatten)]
     pub(crate) scene: SceneArguments,
-    /// Where the chart goes.
+    /// The folder for error.svg, certainty.svg and chart.json [default: the scene's name and -chart].
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 }

@@ -113,10 +113,7 @@ pub(crate) fn wanted<const C: usize>(options: &Options, map: Option<&MapFile<C>>
 /// The schedule of a session, with its default count named on standard error.
 pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted, cells: usize) -> Schedule {
     let schedule = Schedule::new(wanted, cells, &session.demands());
-    let Aids { cache, guide, .. } = session.settings.aids;
-    if cache && !session.reads_reflected() || guide && !session.needs.indirect {
-        say!("note: nothing is reflected here; --cache, --guided and --gather-rays change nothing");
-    }
+    warn_of_idle_aids(session);
     let nothing_given = wanted.photons.is_none()
         && wanted.passes.is_none()
         && wanted.samples.is_none()
@@ -130,6 +127,14 @@ pub(crate) fn schedule<const C: usize>(session: &Session<'_, C>, wanted: &Wanted
         );
     }
     schedule
+}
+
+/// Says what was asked for and changes nothing.
+pub(crate) fn warn_of_idle_aids<const C: usize>(session: &Session<'_, C>) {
+    let Aids { cache, guide, .. } = session.settings.aids;
+    if cache && !session.reads_reflected() || guide && !session.needs.indirect {
+        say!("note: nothing is reflected here; --cache, --guided and --gather-rays change nothing");
+    }
 }
 
 /// The lamps and coatings of a world in its channels; refuses what emits nothing.

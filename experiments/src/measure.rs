@@ -117,10 +117,12 @@ fn method_for(cells: &[Cell], asked: MethodName) -> MethodName {
 }
 
 /// Refuses a method that cannot read one of the meters.
-fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(), Failure> {
+pub(crate) fn is_readable(scene: &Scene, cells: &[Cell], settings: &Settings) -> Result<(), Failure> {
     let Some((cell, why)) = unreadable(cells, settings) else { return Ok(()) };
     let id = &scene.sensors[cell.sensor].id;
-    Err(Failure::usage(format!("sensor `{id}`: {why}; --sensor ID reads one sensor by itself")))
+    let others =
+        if matches!(cell.target, Target::Pixel { .. }) { "" } else { "; --sensor ID reads one sensor by itself" };
+    Err(Failure::usage(format!("sensor `{id}`: {why}{others}")))
 }
 
 /// A cell that a method cannot read, and why.

@@ -3,30 +3,32 @@
 use std::{fmt::Write as _, io::Write as _, time::Duration};
 
 use photonlab_photometry::Response;
-use photonlab_planner::{Entrant, Plan};
-use photonlab_readout::{Cell, ErrorOver, Session, Target};
-use photonlab_scene::Receiver;
+use photonlab_planner::{Entrant, Plan, Standing, Why};
+use photonlab_readout::Session;
 
 use crate::{
     Failure, by_channels,
     command::{self, Options},
+    fixed_command::quoted,
     loaded::{Loaded, optics},
-    planned::{interval, race},
+    planned::{interval, percent, race},
+    reads::Reads,
     system,
 };
 
-/// Pilots take no longer than this.
+/// No pilot starts later than this.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Explains a scene's needs on standard output, and a race's end if an error is wanted.
 pub(crate) fn plan(arguments: &command::Plan) -> Result<(), Failure> {
     system::start_threads(None)?;
-    let loaded = Loaded::new(&arguments.scene)?;
+    let mut loaded = Loaded::new(&arguments.scene)?;
     let mut text = needs(&loaded, &arguments.scene.scene.display().to_string());
     if let Some(target) = arguments.target_error {
         loaded.needs_light(&arguments.scene.scene)?;
+        let reads = Reads::of(&mut loaded, &arguments.scene.scene, None)?;
         let options = &Options { target_error: Some(target), ..Options::usual() };
-        text += &by_channels!(loaded.needs.channels, forecasts(arguments, &loaded, options, target))?;
+        text += &by_channels!(loaded.needs.channels, forecasts(arguments, &loaded, options, (target, &reads)))?;
     }
     std::io::stdout().write_all(text.as_bytes())?;
     Ok(())
@@ -50,30 +52,14 @@ fn needs(loaded: &Loaded, file: &str) -> String {
     text
 }
 
-/// What is foretold of each method: for all meters that no goniometer is, or for the first camera where there is none.
+/// What is foretold of each method.
 fn forecasts<const C: usize>(
     arguments: &command::Plan,
     loaded: &Loaded,
     options: &Options,
-    target: f64,
+    (target, reads): (f64, &Reads),
 ) -> Result<String, Failure> {
     let scene = &loaded.world.scene;
-    let of = |index: usize| Cell::of_sensor(scene, index);
-    let is_meter = |index: &usize| matches!(scene.sensors[*index].receiver, Receiver::Meter(_));
-    let mut cells: Vec<Cell> = (0..scene.sensors.len()).filter(is_meter).flat_map(of).collect();
-    cells.retain(|cell| !matches!(cell.target, Target::Leaving { .. }));
-    let (mut verb, mut error_over, mut what) = ("measure", ErrorOver::Worst, "the worst interval of all meters");
-    if cells.is_empty() {
-        let camera = (0..scene.sensors.len()).find(|index| !is_meter(index));
-        let none = || {
-            Failure::usage(format!(
-                "{}:1: scene: nothing that a plan is for; add a meter or a camera",
-                arguments.scene.scene.display()
-            ))
-        };
-        cells = of(camera.ok_or_else(none)?);
-        (verb, error_over, what) = ("render", ErrorOver::Image, "RMS of the intervals over the image, over its mean");
-    }
     let optics = optics::<C>(loaded, &arguments.scene.scene, Response::of(options.unit_system()))?;
     let session = Session {
         world: &loaded.world,
@@ -81,18 +67,27 @@ fn forecasts<const C: usize>(
         needs: &loaded.needs,
         settings: options.settings(scene)?,
         confidence: options.confidence,
-        error_over,
+        error_over: reads.error_over,
     };
-    let plan = race(options, &session, &cells, (target, Some(PATIENCE)))?;
+    let plan = race(options, &session, &reads.cells, (target, Some(PATIENCE)))?;
     let mut text = format!(
-        "\nto {} % ({what}, half their width; {} cells), on {} threads:\n",
-        100.0 * target,
-        cells.len(),
+        "\n{}, to a half-width of {} ({}), on {} threads:\n",
+        reads.words(),
+        percent(target),
+        reads.over(),
         system::threads()
     );
     text += &table(&plan);
-    let command = format!("photonlab {verb} {} --target-error {}%", arguments.scene.scene.display(), 100.0 * target);
-    let _ = writeln!(text, "\nrun: {command}{}", if verb == "render" { " -o IMAGE.exr" } else { "" });
+    let defines =
+        arguments.scene.define.iter().map(|(name, value)| format!(" -D {}", quoted(&format!("{name}={value}"))));
+    let scene = quoted(&arguments.scene.scene.display().to_string()) + &defines.collect::<String>();
+    let _ = writeln!(
+        text,
+        "\nrun: photonlab {} {scene} --target-error {}{}",
+        reads.verb(),
+        percent(target),
+        reads.output()
+    );
     Ok(text)
 }
 
@@ -100,17 +95,33 @@ fn forecasts<const C: usize>(
 fn table<const C: usize>(plan: &Plan<'_, C>) -> String {
     let mut text = String::new();
     let mut order: Vec<usize> = (0..plan.entrants.len()).collect();
-    let seconds = |index: usize| plan.entrants[index].forecast.map_or(f64::INFINITY, |forecast| forecast.seconds);
+    let seconds =
+        |index: usize| plan.entrants[index].standing.forecast().map_or(f64::INFINITY, |forecast| forecast.seconds);
     order.sort_by(|&a, &b| (a != plan.chosen).cmp(&(b != plan.chosen)).then(seconds(a).total_cmp(&seconds(b))));
     for index in order {
-        let Entrant { candidate, forecast } = &plan.entrants[index];
-        let time = forecast.as_ref().map_or("not foretold: too little found, or out of reach".into(), interval);
+        let Entrant { candidate, standing } = &plan.entrants[index];
+        let time = words(standing);
         let mark = if index == plan.chosen { '*' } else { ' ' };
         let _ = writeln!(text, "{mark} {:<28} {time}", candidate.title());
     }
     let _ = write!(text, "* is chosen, by {:.1} s of pilots", plan.pilots.as_secs_f64());
     if plan.entrants.len() == 1 {
-        text += ": it is all that the scene needs";
+        text += ": no map is needed, for rays to lamps find all light";
     }
     text + "; intervals at 90 %\n"
+}
+
+/// How a candidate stands.
+fn words(standing: &Standing) -> String {
+    match standing {
+        Standing::Foretold(forecast) => interval(forecast),
+        Standing::OutOfReach => "not foretold: too little found, or out of reach".into(),
+        Standing::NotRaced(Why::DoneSoon) => "not raced: the best is done sooner than its pilots".into(),
+        Standing::NotRaced(Why::KinIsBehind) => "not raced: progressive, its kin, is far behind".into(),
+        Standing::NotRaced(Why::StartsSlowly) => {
+            "not raced: to choose its places would take as long as the best".into()
+        }
+        Standing::NotRaced(Why::NoTimeLeft) => "not raced: the pilots' time was over".into(),
+        Standing::NotRaced(Why::Failed) => "failed".into(),
+    }
 }

@@ -9,7 +9,7 @@ use crate::{
     Failure,
     certificate::{is_blind, is_clear_of_edges},
     command::Options,
-    loaded::{read_failure, schedule, wanted},
+    loaded::{read_failure, schedule, wanted, warn_of_idle_aids},
     measure::unreadable,
     progress::Progress,
 };
@@ -24,6 +24,7 @@ pub(crate) fn read<const C: usize>(
     let wanted = wanted(options, map)?;
     if let Some(target) = wanted.target_error.filter(|_| options.is_planned()) {
         let plan = race(options, session, cells, (target, None))?;
+        warn_of_idle_aids(session);
         say!("note: {}", announcement(&plan, target));
         let ends = Ends { passes: None, target_error: Some(target), time_limit: wanted.time_limit };
         let settings = plan.settings();
@@ -67,21 +68,30 @@ pub(crate) fn candidates<const C: usize>(
 
 /// What was chosen, and why, in a line.
 fn announcement<const C: usize>(plan: &Plan<'_, C>, target: f64) -> String {
-    let title = plan.entrants[plan.chosen].candidate.title();
-    let pilots = plan.pilots.as_secs_f64();
+    let chosen = plan.entrants[plan.chosen].candidate;
+    let (title, raced, seconds) = (chosen.title(), plan.raced(), plan.pilots.as_secs_f64());
     let Some(forecast) = plan.forecast else {
         return format!(
-            "auto takes {title}: {} candidates ran {pilots:.1} s and foretell of none that it reaches {:.3} %",
-            plan.entrants.len(),
-            100.0 * target
+            "auto takes {title}: {raced} methods ran {} s, and of none can be foretold that it reaches {}",
+            brief(seconds),
+            percent(target)
         );
     };
-    let others = plan.entrants.len() - 1;
     let time = interval(&forecast);
-    match others {
-        0 => format!("auto takes {title}, which is all that this scene needs: {time} expected"),
-        _ => format!("auto takes {title}: {time} expected, sooner than {others} others by {pilots:.1} s of pilots"),
+    match raced {
+        1 => format!("auto takes {title}; to {}: {time}", percent(target)),
+        _ => format!(
+            "auto takes {title}, the soonest of {raced} that raced for {} s; to {}: {time}",
+            brief(seconds),
+            percent(target)
+        ),
     }
+}
+
+/// A share as the user writes it.
+pub(crate) fn percent(share: f64) -> String {
+    let text = format!("{:.6}", 100.0 * share);
+    format!("{}%", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
 /// A time with its interval.

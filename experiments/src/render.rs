@@ -12,7 +12,7 @@ use crate::{
     fixed_command::fixed_command,
     image::{Image, Layers},
     loaded::{Loaded, open_map, optics, sensors},
-    measure::{warn, warn_of_unsent},
+    measure::{is_readable, warn, warn_of_unsent},
     planned::read,
     system,
 };
@@ -50,7 +50,7 @@ pub(crate) fn render(arguments: &command::Render) -> Result<(), Failure> {
 }
 
 /// Gives a camera another film; the field of view along the width stays.
-fn resize(loaded: &mut Loaded, sensor: usize, [width, height]: [u32; 2]) {
+pub(crate) fn resize(loaded: &mut Loaded, sensor: usize, [width, height]: [u32; 2]) {
     let sensor = &mut loaded.world.scene.sensors[sensor];
     sensor.film = Film { width, height };
     if let Receiver::Camera(camera) = &mut sensor.receiver {
@@ -72,6 +72,7 @@ fn run<const C: usize>(arguments: &command::Render, loaded: &Loaded, sensor: usi
     let map = open_map::<C>(options, loaded, &mut settings)?;
     let (world, needs, confidence) = (&loaded.world, &loaded.needs, options.confidence);
     let cells = Cell::of_sensor(&world.scene, sensor);
+    is_readable(&world.scene, &cells, &settings)?;
     let session = Session { world, optics: &optics, needs, settings, confidence, error_over: ErrorOver::Image };
     let (settings, outcome) = read(options, &session, &cells, map.as_ref())?;
     warn(&outcome);

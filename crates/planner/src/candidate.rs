@@ -19,12 +19,23 @@ pub struct Candidate {
 /// alone brings it down; the best share follows from the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Balance {
-    /// Four times as many photons to a ray as usual.
+    /// Four times as many photons to a ray as evenly.
     Photons,
-    /// Two rays to a photon, or one to a cell.
+    /// Two rays to a photon.
     Even,
     /// A quarter of the photons to a ray.
     Rays,
+}
+
+/// When a candidate enters the race.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Heat {
+    /// At once.
+    First,
+    /// If another that reads the map at the point itself is still in the race: noise and bias of all of these are much alike.
+    IfKinIsLeft,
+    /// If the best of the others needs long: it chooses places in the whole scene before its first pass.
+    IfTimeIsLeft,
 }
 
 impl Balance {
@@ -48,9 +59,11 @@ impl Candidate {
         if let Some(&alone) = settings.iter().filter(gathers).find(needs_no_map) {
             return vec![Candidate { settings: alone, balance: Balance::Even }];
         }
+        let gathers_without_cache = settings.iter().any(|it| gathers(&it) && !it.aids.cache);
         let balances = |settings: &Settings| -> &[Balance] {
+            let is_superfluous = gathers_without_cache && !with(*settings).reads_reflected();
             match settings.method {
-                Method::FinalGather { .. } if settings.aids.cache && !with(*settings).reads_reflected() => &[],
+                Method::FinalGather { .. } if settings.aids.cache && is_superfluous => &[],
                 Method::FinalGather { .. } if settings.aids.cache => &[Balance::Even],
                 Method::FinalGather { .. } => &[Balance::Even, Balance::Photons, Balance::Rays],
                 Method::Radius { .. } | Method::Adaptive => &[Balance::Photons, Balance::Even],
@@ -81,19 +94,28 @@ impl Candidate {
         title
     }
 
-    /// True if it chooses places in the whole scene before its first pass.
-    pub(crate) fn starts_slowly(&self) -> bool {
-        self.settings.aids.cache
+    /// When it enters.
+    pub(crate) fn heat(&self) -> Heat {
+        match self.settings.method {
+            Method::FinalGather { .. } if self.settings.aids.cache => Heat::IfTimeIsLeft,
+            Method::FinalGather { .. } | Method::Path | Method::Bins | Method::Radius { .. } => Heat::First,
+            Method::Adaptive | Method::Nearest { .. } => Heat::IfKinIsLeft,
+        }
+    }
+
+    /// True if it reads the map at the point itself.
+    pub(crate) fn is_direct_view(&self) -> bool {
+        matches!(self.settings.method, Method::Radius { .. } | Method::Adaptive | Method::Nearest { .. })
     }
 
     /// Passes that are so many times as long as the shortest.
     pub fn schedule(&self, cells: usize, demands: &Demands, scale: f64, ends: Ends) -> Schedule {
         let [more_photons, more_rays] = self.balance.factors();
-        let rays_of_point = cells.max(1) as f64 * f64::from(demands.gather_rays);
-        let samples = (scale * RAYS * more_rays / rays_of_point).clamp(1.0, demands.most_samples as f64).round();
         // Of many cells the shortest pass has one point each, and photons to match.
-        let matching = samples * rays_of_point * PHOTONS / RAYS * more_photons / more_rays;
-        let photons = (scale * PHOTONS * more_photons).max(matching).round();
+        let rays_of_point = cells.max(1) as f64 * f64::from(demands.gather_rays);
+        let rays = scale * RAYS.max(rays_of_point);
+        let samples = (rays * more_rays / rays_of_point).clamp(1.0, demands.most_samples as f64).round();
+        let photons = (rays * PHOTONS / RAYS * more_photons).max(1.0).round();
         Schedule::of_passes(photons as u64, samples as u64, ends, demands)
     }
 }

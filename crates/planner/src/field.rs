@@ -4,94 +4,134 @@ use std::time::Instant;
 
 use photonlab_readout::{CellResult, ReadError};
 
-use crate::{Forecast, trial::Trial};
+use crate::{
+    Forecast,
+    plan::{Standing, Why},
+    trial::Trial,
+};
 
+/// Passes that a candidate enters with.
+const FIRST_PASSES: u64 = 4;
 /// Passes after which the slow are dropped, and how many of the rest go on.
-const ROUNDS: [(u64, usize); 4] = [(4, 6), (8, 3), (16, 2), (32, 1)];
+const ROUNDS: [(u64, usize); 4] = [(FIRST_PASSES, 6), (8, 3), (16, 2), (32, 1)];
 /// A round of all that are left may cost this share of what the best still needs.
 const WORTH: f64 = 0.1;
 
 /// Candidates at one length of passes.
 pub(crate) struct Field<'p, 'c, const C: usize> {
-    /// The best first.
+    /// Once ranked, the best first.
     pub(crate) trials: Vec<Trial<'c, C>>,
     pub(crate) target: f64,
     /// True for what a cell has found if its error bar can be signed.
     pub(crate) trusts: &'p dyn Fn(&CellResult<C>) -> bool,
     /// When pilots end, whatever is known by then.
     pub(crate) deadline: Option<Instant>,
-    /// What has been foretold of each candidate last.
-    pub(crate) foretold: &'p mut [Option<Forecast>],
-    /// Seconds that those have spent which are out.
-    pub(crate) lost: f64,
+    /// How each candidate stood last.
+    pub(crate) standings: Vec<Standing>,
     /// Why one of them could not run.
     pub(crate) failure: Option<ReadError>,
 }
 
-impl<const C: usize> Field<'_, '_, C> {
+impl<'c, const C: usize> Field<'_, 'c, C> {
+    /// Lets one more run its first passes.
+    pub(crate) fn enter(&mut self, number: usize, trial: Result<Trial<'c, C>, ReadError>) {
+        match trial.and_then(|mut trial| self.run_to(&mut trial, FIRST_PASSES).map(|()| trial)) {
+            Ok(trial) => {
+                self.foretell(&trial);
+                self.trials.push(trial);
+                self.drop_the_hopeless();
+            }
+            Err(error) => self.fail(number, error),
+        }
+    }
+
+    fn fail(&mut self, number: usize, error: ReadError) {
+        self.standings[number] = Standing::NotRaced(Why::Failed);
+        self.failure.get_or_insert(error);
+    }
+
+    /// What has been found by many is much to keep: those that can hardly be the soonest are dropped as soon as that is known.
+    fn drop_the_hopeless(&mut self) {
+        let Some(best) = self.soonest() else { return };
+        let standings = &self.standings;
+        self.trials.retain(|trial| standings[trial.number].forecast().is_none_or(|forecast| forecast.low <= best.high));
+    }
+
     /// Runs all in rounds until one is left, or is done, or more rounds cost more than they are worth.
     pub(crate) fn halve(&mut self) {
         for (passes, kept) in ROUNDS {
-            self.run_to(passes);
+            for mut trial in std::mem::take(&mut self.trials) {
+                // One that fails is out.
+                match self.run_to(&mut trial, passes) {
+                    Ok(()) => self.trials.push(trial),
+                    Err(error) => self.fail(trial.number, error),
+                }
+            }
             self.rank();
             self.keep(kept);
-            if self.trials.len() < 2 || self.is_late() || self.trials[0].has_reached(self.target) {
+            // Where nothing is foretold more of the same tells little.
+            if self.trials.len() < 2
+                || self.best().is_none()
+                || self.is_late()
+                || self.trials[0].has_reached(self.target)
+            {
                 return;
             }
             let next: f64 = self.trials.iter().map(|trial| trial.seconds_of_pass() * passes as f64).sum();
-            let left = self.best().map_or(f64::INFINITY, |best| best.seconds - self.trials[0].spent());
+            let left = self.best().map_or(0.0, |best| best.seconds - self.trials[0].spent());
             if next > WORTH * left {
                 return;
             }
         }
     }
 
-    /// What is foretold of the best.
+    /// What is foretold of the first in the field.
     pub(crate) fn best(&self) -> Option<Forecast> {
-        self.foretold[self.trials.first()?.number]
+        self.standings[self.trials.first()?.number].forecast()
+    }
+
+    /// What is foretold of the soonest, whether they have been ranked or not.
+    pub(crate) fn soonest(&self) -> Option<Forecast> {
+        let forecasts = self.trials.iter().filter_map(|trial| self.standings[trial.number].forecast());
+        forecasts.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
 
     pub(crate) fn is_late(&self) -> bool {
         self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
     }
 
-    /// A candidate that fails is out.
-    fn run_to(&mut self, passes: u64) {
-        let mut running = std::mem::take(&mut self.trials);
-        running.retain_mut(|trial| {
-            while trial.ongoing.passes() < passes && !(self.is_late() && trial.ongoing.passes() >= 2) {
-                if let Err(error) = trial.pass() {
-                    self.lost += trial.spent();
-                    self.failure.get_or_insert(error);
-                    return false;
-                }
-            }
-            true
-        });
-        self.trials = running;
+    fn run_to(&self, trial: &mut Trial<'c, C>, passes: u64) -> Result<(), ReadError> {
+        while trial.ongoing.passes() < passes && !(self.is_late() && trial.ongoing.passes() >= 2) {
+            trial.pass()?;
+        }
+        Ok(())
+    }
+
+    fn foretell(&mut self, trial: &Trial<'c, C>) {
+        self.standings[trial.number] = trial.forecast(self.target).map_or(Standing::OutOfReach, Standing::Foretold);
     }
 
     /// The best first: whose error bars can be signed before others, and of these the soonest.
-    fn rank(&mut self) {
-        for trial in &self.trials {
-            self.foretold[trial.number] = trial.forecast(self.target);
-        }
-        let key = |trial: &Trial<'_, C>| {
+    pub(crate) fn rank(&mut self) {
+        let trials = std::mem::take(&mut self.trials);
+        trials.iter().for_each(|trial| self.foretell(trial));
+        let key = |trial: &Trial<'c, C>| {
             let is_trusted = trial.ongoing.cells().iter().all(self.trusts);
-            let seconds = self.foretold[trial.number].map_or(f64::INFINITY, |forecast| forecast.seconds);
+            let seconds = self.standings[trial.number].forecast().map_or(f64::INFINITY, |forecast| forecast.seconds);
             (!is_trusted, seconds)
         };
-        let mut keyed: Vec<_> =
-            std::mem::take(&mut self.trials).into_iter().map(|trial| (key(&trial), trial)).collect();
+        let mut keyed: Vec<_> = trials.into_iter().map(|trial| (key(&trial), trial)).collect();
         keyed.sort_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         self.trials = keyed.into_iter().map(|(_, trial)| trial).collect();
     }
 
-    /// Drops those that can hardly be the soonest, and the last beyond a number. Where nothing is foretold of any, all stay.
+    /// Drops those that can hardly be the soonest, and the last beyond a number. Where nothing is foretold of the first, all stay.
     fn keep(&mut self, most: usize) {
         let Some(best) = self.best() else { return };
-        let may_win = |trial: &Trial<'_, C>| self.foretold[trial.number].is_some_and(|it| it.low <= best.high);
-        let stay = self.trials.iter().take(most).take_while(|trial| may_win(trial)).count().max(1);
-        self.lost += self.trials.drain(stay..).map(|trial| trial.spent()).sum::<f64>();
+        let may_win = |trial: &Trial<'c, C>| {
+            self.standings[trial.number].forecast().is_some_and(|forecast| forecast.low <= best.high)
+        };
+        let stay = self.trials.iter().take(most).take_while(|trial| may_win(trial)).count();
+        self.trials.truncate(stay.max(1));
     }
 }

@@ -27,9 +27,15 @@ impl Forecast {
         Self { passes, seconds, low: seconds * (-spread).exp(), high: seconds * spread.exp() }
     }
 
-    /// The same number of photons and rays in fewer, longer passes.
-    pub(crate) fn in_passes(&self, passes: u64) -> Self {
-        Self { passes, ..*self }
+    /// In passes that are so many times as long, which need fewer photons and rays in all by a power of that.
+    pub(crate) fn in_longer_passes(&self, longer: f64, gain: f64) -> Self {
+        let less = longer.powf(-gain);
+        Self {
+            passes: (self.passes as f64 * less / longer).ceil() as u64,
+            seconds: self.seconds * less,
+            low: self.low * less,
+            high: self.high * less,
+        }
     }
 }
 
@@ -41,6 +47,8 @@ mod tests {
     fn more_passes_foretell_better() {
         let [few, many] = [3.0, 300.0].map(|degrees| Forecast::new(100, 0.5, 0.01, degrees));
         assert!((few.seconds - 1.49).abs() < 1e-12 && few.seconds == many.seconds);
+        let longer = many.in_longer_passes(4.0, 0.5);
+        assert_eq!((longer.passes, longer.seconds), (13, 0.5 * many.seconds));
         assert!(few.low < many.low && many.high < few.high && many.low < many.seconds && many.seconds < many.high);
     }
 }

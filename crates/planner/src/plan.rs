@@ -6,13 +6,49 @@ use photonlab_readout::{Observer, Outcome, ReadError, Settings};
 
 use crate::{Candidate, Forecast, trial::Trial};
 
-/// One that entered, and what its last pass foretold; `None` if no number of its passes reaches the wanted error.
+/// One that could read the cells.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entrant {
-    /// What entered.
+    /// The method and its settings.
     pub candidate: Candidate,
-    /// Of a run without pilots.
-    pub forecast: Option<Forecast>,
+    /// How it stood when it was last seen.
+    pub standing: Standing,
+}
+
+/// How a candidate stood when it was last seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Standing {
+    /// In all, from its own start.
+    Foretold(Forecast),
+    /// Too little was found to foretell by, or no number of passes reaches the wanted error.
+    OutOfReach,
+    /// It did not run.
+    NotRaced(Why),
+}
+
+/// Why a candidate did not run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why {
+    /// The best is done before a pilot would tell anything.
+    DoneSoon,
+    /// What reads the map at the point itself is far behind.
+    KinIsBehind,
+    /// It starts slowly, and the best needs little longer than that start.
+    StartsSlowly,
+    /// No time was left for it.
+    NoTimeLeft,
+    /// A pass of it failed.
+    Failed,
+}
+
+impl Standing {
+    /// What was foretold.
+    pub fn forecast(&self) -> Option<Forecast> {
+        match self {
+            Standing::Foretold(forecast) => Some(*forecast),
+            Standing::OutOfReach | Standing::NotRaced(_) => None,
+        }
+    }
 }
 
 /// A candidate chosen among all, ready to go on.
@@ -29,6 +65,11 @@ pub struct Plan<'c, const C: usize> {
 }
 
 impl<const C: usize> Plan<'_, C> {
+    /// How many of them ran.
+    pub fn raced(&self) -> usize {
+        self.entrants.iter().filter(|entrant| !matches!(entrant.standing, Standing::NotRaced(_))).count()
+    }
+
     /// The chosen one's settings.
     pub fn settings(&self) -> Settings {
         self.winner.candidate.settings

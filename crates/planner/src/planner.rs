@@ -2,31 +2,43 @@
 
 use std::time::{Duration, Instant};
 
-use photonlab_readout::{Cell, CellResult, Ends, ReadError, Session};
+use photonlab_readout::{Cell, CellResult, Ends, ErrorOver, ReadError, Session};
 
 use crate::{
     Candidate, Forecast,
+    candidate::Heat,
     field::Field,
-    plan::{Entrant, Plan},
+    plan::{Entrant, Plan, Standing, Why},
     trial::Trial,
 };
 
 /// Passes up to which a run goes on as it has begun; where more would be needed, longer passes spare what each costs by itself.
 const MOST_PASSES: u64 = 160;
-/// Passes of such a run: many tell the error bar well.
-const AIM: f64 = 56.0;
+/// Passes of such a run: of meters many tell the error bar well; of an image's pixels, which are many themselves, fewer and longer ones have
+/// more evenly spread points.
+const METERS_PASSES: f64 = 56.0;
+const IMAGES_PASSES: f64 = 20.0;
 /// The next length of passes over the last.
 const LONGER: f64 = 16.0;
 /// Passes that longer ones are tried by.
 const TRIED_BY: f64 = 4.0;
 /// What longer passes may cost of what the best still needs.
 const WORTH: f64 = 0.1;
-/// Passes are no longer than this many times the shortest while nothing has been found to foretell by.
+/// Passes are no longer than this many times the shortest while nothing has been found to foretell by, nor tried for so many seconds.
 const LONGEST_IN_THE_DARK: f64 = 256.0;
-/// A candidate that does much before its first pass enters where the best of the others still needs so many seconds.
+const SECONDS_IN_THE_DARK: f64 = 5.0;
+/// Passes are so many times more where each draws wavelengths of its own.
+const FINER: f64 = 4.0;
+/// Passes that a time limit should hold at least.
+const PASSES_IN_TIME: f64 = 20.0;
+/// No other enters where the best is done within so many seconds: pilots would take as long.
+const SOON: f64 = 0.1;
+/// What starts slowly enters where the best of the others still needs so many seconds.
 const LATE: f64 = 5.0;
 /// Of a time limit pilots take this share at most.
 const OF_LIMIT: f64 = 0.2;
+/// Longer passes need fewer photons and rays in all, or more, by no more than this power of their length.
+const MOST_GAIN: f64 = 0.5;
 
 /// What is to be read, and how well.
 pub struct Planner<'p, 'c, const C: usize> {
@@ -55,96 +67,168 @@ pub enum PlanningError {
     Read(#[from] ReadError),
 }
 
-impl<'c, const C: usize> Planner<'_, 'c, C> {
+impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
     /// Lets candidates run until one is chosen.
     pub fn race(&self, candidates: &[Candidate]) -> Result<Plan<'c, C>, PlanningError> {
         let start = Instant::now();
+        let mut field = self.field(start, candidates.len());
+        self.enter_all(&mut field, candidates, start);
+        let mut gained = 0.0;
+        loop {
+            field.halve();
+            let Some((scale, by)) = self.next_scale(&field, start) else { break };
+            let (before, standings) = (field.best(), field.standings.clone());
+            let shorter = std::mem::take(&mut field.trials);
+            for trial in &shorter {
+                field.enter(trial.number, self.trial((trial.number, trial.candidate), scale, start));
+            }
+            field.rank();
+            match (before, field.best()) {
+                (Some(before), Some(now)) if now.low <= before.high => gained = gain(before, now, by),
+                (None, _) if !field.trials.is_empty() => {}
+                // Longer passes are slower, or foretell nothing.
+                _ => {
+                    (field.trials, field.standings) = (shorter, standings);
+                    break;
+                }
+            }
+        }
+        let forecast = field.best();
+        let Some(winner) = field.trials.into_iter().next() else {
+            return Err(field.failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
+        };
+        let pilots = start.elapsed();
+        let standings = candidates.iter().zip(field.standings);
+        let entrants = standings.map(|(&candidate, standing)| Entrant { candidate, standing }).collect();
+        let chosen = winner.number;
+        let (winner, forecast) = self.go_on_with(winner, (forecast, gained), start)?;
+        Ok(Plan { entrants, chosen, forecast, pilots, winner })
+    }
+
+    fn field(&self, start: Instant, candidates: usize) -> Field<'p, 'c, C> {
         let of_limit = self.time_limit.map(|limit| limit.mul_f64(OF_LIMIT));
-        let deadline = self.patience.into_iter().chain(of_limit).min().map(|patience| start + patience);
-        let mut foretold = vec![None; candidates.len()];
-        let mut field = Field {
+        Field {
             trials: Vec::new(),
             target: self.target,
             trusts: self.trusts,
-            deadline,
-            foretold: &mut foretold,
-            lost: 0.0,
+            deadline: self.patience.into_iter().chain(of_limit).min().map(|patience| start + patience),
+            standings: vec![Standing::NotRaced(Why::DoneSoon); candidates],
             failure: None,
-        };
-        let numbered = || candidates.iter().copied().enumerate();
-        self.enter(&mut field, numbered().filter(|(_, candidate)| !candidate.starts_slowly()), 1.0);
-        field.halve();
-        if field.best().is_none_or(|best| best.seconds > LATE) && !field.is_late() {
-            let scale = field.trials.first().map_or(1.0, |best| best.scale);
-            self.enter(&mut field, numbered().filter(|(_, candidate)| candidate.starts_slowly()), scale);
         }
-        loop {
-            field.halve();
-            let Some(scale) = self.next_scale(&field) else { break };
-            let still: Vec<_> = field.trials.iter().map(|trial| (trial.number, trial.candidate)).collect();
-            field.lost += field.trials.drain(..).map(|trial| trial.spent()).sum::<f64>();
-            self.enter(&mut field, still.into_iter(), scale);
-        }
-        let failure = field.failure.take();
-        let Some(winner) = field.trials.into_iter().next() else {
-            return Err(failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
-        };
-        let pilots = start.elapsed();
-        let entrants = candidates.iter().zip(foretold).map(|(&candidate, forecast)| Entrant { candidate, forecast });
-        let forecast = entrants.clone().nth(winner.number).and_then(|entrant| entrant.forecast);
-        let (chosen, (winner, forecast)) = (winner.number, self.go_on_with(winner, forecast, start)?);
-        Ok(Plan { entrants: entrants.collect(), chosen, forecast, pilots, winner })
     }
 
-    fn enter(&self, field: &mut Field<'_, 'c, C>, candidates: impl Iterator<Item = (usize, Candidate)>, scale: f64) {
-        let ends = Ends { passes: None, target_error: Some(self.target), time_limit: self.time_limit };
-        for entrant in candidates {
-            match Trial::new(&self.session, self.cells, entrant, scale, ends) {
-                Ok(trial) => field.trials.push(trial),
-                Err(error) => {
-                    field.failure.get_or_insert(error);
+    /// Lets candidates run their first passes: at once, or after a look at those before them, if they enter at all.
+    fn enter_all(&self, field: &mut Field<'p, 'c, C>, candidates: &[Candidate], start: Instant) {
+        let in_heat = |heat: Heat| candidates.iter().copied().enumerate().filter(move |(_, it)| it.heat() == heat);
+        for (number, candidate) in in_heat(Heat::First) {
+            if field.soonest().is_some_and(|best| best.high <= SOON) {
+                return;
+            }
+            self.enter_unless_late(field, (number, candidate), start);
+        }
+        field.halve();
+        let kin_is_left = field.trials.is_empty() || field.trials.iter().any(|trial| trial.candidate.is_direct_view());
+        let time_is_left = field.best().is_none_or(|best| best.seconds > LATE);
+        let late =
+            [(Heat::IfKinIsLeft, kin_is_left, Why::KinIsBehind), (Heat::IfTimeIsLeft, time_is_left, Why::StartsSlowly)];
+        for (heat, enters, why_not) in late {
+            for (number, candidate) in in_heat(heat) {
+                if enters {
+                    self.enter_unless_late(field, (number, candidate), start);
+                } else {
+                    field.standings[number] = Standing::NotRaced(why_not);
                 }
             }
         }
     }
 
-    /// The length of longer passes, if they are worth a try: several are left, and it costs little of what the best still needs. Where nothing
-    /// could be foretold, longer passes may find something.
-    fn next_scale(&self, field: &Field<'_, 'c, C>) -> Option<f64> {
+    /// One runs however late it is.
+    fn enter_unless_late(&self, field: &mut Field<'p, 'c, C>, entrant: (usize, Candidate), start: Instant) {
+        if field.is_late() && !field.trials.is_empty() {
+            field.standings[entrant.0] = Standing::NotRaced(Why::NoTimeLeft);
+        } else {
+            field.enter(entrant.0, self.trial(entrant, 1.0, start));
+        }
+    }
+
+    fn trial(&self, entrant: (usize, Candidate), scale: f64, start: Instant) -> Result<Trial<'c, C>, ReadError> {
+        let ends = Ends { passes: None, target_error: Some(self.target), time_limit: self.time_left(start) };
+        Trial::new(&self.session, self.cells, entrant, scale, ends)
+    }
+
+    fn time_left(&self, start: Instant) -> Option<Duration> {
+        self.time_limit.map(|limit| limit.saturating_sub(start.elapsed()))
+    }
+
+    /// The length of longer passes, and by how much they are longer, if they are worth a try: they say more of how long the best takes, and cost
+    /// little of that. Where nothing could be foretold, longer passes may find something.
+    fn next_scale(&self, field: &Field<'p, 'c, C>, start: Instant) -> Option<(f64, f64)> {
         let first = field.trials.first()?;
-        let longer = LONGER * first.scale;
-        if field.is_late() {
+        let (scale, by) = first.longer(LONGER);
+        let cost: f64 =
+            field.trials.iter().map(|trial| TRIED_BY * trial.longer(LONGER).1 * trial.seconds_of_pass()).sum();
+        let in_time = field.deadline.is_none_or(|deadline| Instant::now() + Duration::from_secs_f64(cost) <= deadline);
+        // Passes that hold all they may hold do not grow.
+        if by < 2.0 || !in_time {
             return None;
         }
-        let Some(best) = field.best() else { return (longer <= LONGEST_IN_THE_DARK).then_some(longer) };
-        let cost: f64 = field.trials.iter().map(|trial| TRIED_BY * LONGER * trial.seconds_of_pass()).sum();
-        let is_worth = field.trials.len() > 1 && best.passes > MOST_PASSES && cost <= WORTH * best.seconds;
-        is_worth.then_some(longer)
+        let is_worth = match field.best() {
+            Some(best) => best.passes > MOST_PASSES && cost <= WORTH * best.seconds,
+            None => scale <= LONGEST_IN_THE_DARK && start.elapsed().as_secs_f64() + cost <= SECONDS_IN_THE_DARK,
+        };
+        is_worth.then_some((scale, by))
     }
 
     /// The run that is gone on with: the winner's own, or one of longer passes if it would need too many.
     fn go_on_with(
         &self,
         winner: Trial<'c, C>,
-        forecast: Option<Forecast>,
+        (forecast, gain): (Option<Forecast>, f64),
         start: Instant,
     ) -> Result<(Trial<'c, C>, Option<Forecast>), ReadError> {
         let passes = forecast.map_or(u64::MAX, |forecast| forecast.passes);
         if passes <= MOST_PASSES {
             return Ok((winner, forecast));
         }
-        let left = self.time_limit.map(|limit| limit.saturating_sub(start.elapsed()));
-        let seconds = forecast.map_or(f64::INFINITY, |forecast| forecast.seconds);
-        let in_time = left.map_or(1.0, |left| (left.as_secs_f64() / seconds).min(1.0));
-        let usual = LONGEST_IN_THE_DARK / 4.0;
-        let longer = if forecast.is_some() { passes as f64 * in_time / AIM } else { usual / winner.scale };
-        if longer <= 1.0 {
+        let aim = match self.session.error_over {
+            ErrorOver::Worst => METERS_PASSES,
+            ErrorOver::Image => IMAGES_PASSES,
+        };
+        let aim = if self.session.demands().draws_wavelengths { FINER * aim } else { aim };
+        let for_target = match forecast {
+            Some(_) => (passes as f64 / aim).powf(1.0 / (1.0 + gain)),
+            None => LONGEST_IN_THE_DARK / winner.scale,
+        };
+        let left = self.time_left(start).map_or(f64::INFINITY, |left| left.as_secs_f64());
+        let in_time = left / (PASSES_IN_TIME * winner.seconds_of_pass());
+        let (scale, by) = winner.longer(for_target.min(in_time));
+        if by <= 1.0 {
             return Ok((winner, forecast));
         }
-        let ends = Ends { passes: None, target_error: Some(self.target), time_limit: left };
-        let entrant = (winner.number, winner.candidate);
-        let trial = Trial::new(&self.session, self.cells, entrant, winner.scale * longer, ends)?;
-        let shorter = trial.work_of_pass() / winner.work_of_pass();
-        Ok((trial, forecast.map(|forecast| forecast.in_passes((passes as f64 / shorter).ceil() as u64))))
+        let trial = self.trial((winner.number, winner.candidate), scale, start)?;
+        Ok((trial, forecast.map(|forecast| forecast.in_longer_passes(by, gain))))
+    }
+}
+
+/// By what power of the passes' length the photons and rays in all fall that an error needs: as far as two forecasts show it beyond their own
+/// uncertainty. Below zero where longer passes need more.
+fn gain(shorter: Forecast, longer: Forecast, ratio: f64) -> f64 {
+    let unsure = ((shorter.high / shorter.seconds).ln().powi(2) + (longer.high / longer.seconds).ln().powi(2)).sqrt();
+    let gained = (shorter.seconds / longer.seconds).ln();
+    let sure = (gained.abs() - unsure).max(0.0).copysign(gained);
+    (sure / ratio.ln()).clamp(-MOST_GAIN, MOST_GAIN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn longer_passes_gain_what_is_sure() {
+        let of = |passes: u64, degrees: f64| Forecast::new(passes, 0.01, 0.01, degrees);
+        assert_eq!(gain(of(1000, 3.0), of(800, 3.0), 16.0), 0.0, "by chance");
+        let sure = gain(of(1000, 1e6), of(300, 1e6), 16.0);
+        assert!(sure > 0.3 && sure < 1000f64.log(16.0) - 300f64.log(16.0), "{sure}");
+        assert_eq!(gain(of(1000, 1e6), of(1, 1e6), 16.0), MOST_GAIN);
     }
 }

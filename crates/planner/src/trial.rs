@@ -1,6 +1,6 @@
 //! A candidate that runs.
 
-use photonlab_readout::{Cell, Ends, ErrorOver, Ongoing, PASSES_BEFORE_STOPPING, ReadError, Session};
+use photonlab_readout::{Cell, Ends, ErrorOver, Ongoing, PASSES_BEFORE_STOPPING, ReadError, Schedule, Session};
 
 use crate::{Candidate, Forecast};
 
@@ -49,10 +49,18 @@ impl<'c, const C: usize> Trial<'c, C> {
         later.get(later.len() / 2).or(self.seconds.first()).copied().unwrap_or(0.0)
     }
 
-    /// Photons and points of a pass.
-    pub(crate) fn work_of_pass(&self) -> f64 {
-        let schedule = self.ongoing.schedule();
-        (schedule.photons(0) + schedule.samples(0) * self.cells as u64) as f64
+    /// How many times as much a pass of another run does.
+    pub(crate) fn times_as_much(&self, of: &Schedule) -> f64 {
+        let work = |schedule: &Schedule| (schedule.photons(0) + schedule.samples(0) * self.cells as u64) as f64;
+        work(of) / work(self.ongoing.schedule())
+    }
+
+    /// The passes of the same candidate that are so many times as long, or as long as they may be; and how much longer that is.
+    pub(crate) fn longer(&self, by: f64) -> (f64, f64) {
+        let (session, schedule) = (self.ongoing.session(), self.ongoing.schedule());
+        let scale = self.scale * by;
+        let longer = self.candidate.schedule(self.cells, &session.demands(), scale, schedule.ends);
+        (scale, self.times_as_much(&longer))
     }
 
     /// Seconds of all passes so far.

@@ -54,6 +54,9 @@ pub struct CellResult<const C: usize> {
 /// always added, for a spread that counts show in few passes is hardly known better; it falls faster than the noise.
 const GRAIN: f64 = 9.21;
 
+/// An error to come is foretold by so many cells at most: the worst of a picture's is not asked for, and their mean is known by these.
+const FORETOLD_BY: usize = 4096;
+
 /// Glints, or photons, from which on their own spread says how many more there may be.
 pub(crate) const ENOUGH: f64 = 30.0;
 /// -ln of the probability with which a Poisson variable may exceed the bound of [`CellResult::rare_bound`]: 99 %.
@@ -199,6 +202,13 @@ pub struct Outcome<const C: usize> {
     pub channels: Channels,
 }
 
+impl<const C: usize> Outcome<C> {
+    /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
+    pub fn error(&self, over: ErrorOver, confidence: f64) -> Option<f64> {
+        over.of(&self.cells, self.results, confidence)
+    }
+}
+
 /// How the cells' errors make one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorOver {
@@ -222,7 +232,7 @@ impl ErrorOver {
         })
     }
 
-    /// The same after more passes, by the laws of noise and bias.
+    /// The same after more passes, by the laws of noise and bias, of at most so many cells that are spread over all.
     pub(crate) fn expected<const C: usize>(
         self,
         cells: &[CellResult<C>],
@@ -231,7 +241,8 @@ impl ErrorOver {
         laws: &Laws,
     ) -> Option<f64> {
         let t = student_t_quantile(confidence, (laws.passes - 1) as f64);
-        self.combine(cells, results, confidence, |cell, c, _| {
+        let some: Vec<&CellResult<C>> = cells.iter().step_by(cells.len().div_ceil(FORETOLD_BY).max(1)).collect();
+        self.combine(&some, results, confidence, |cell, c, _| {
             let noise = laws.noise(&cell.value[c]) + OF_BIAS_NOISE * laws.noise_of_bias(&cell.bias[c]);
             let known = laws.size_of_bias(&cell.bias[c])
                 + MISSING_AT_MOST * laws.size_of_bias(&cell.unresolved[c])
@@ -258,18 +269,18 @@ impl ErrorOver {
 
     fn combine<const C: usize>(
         self,
-        cells: &[CellResult<C>],
+        cells: &[impl std::borrow::Borrow<CellResult<C>>],
         results: usize,
         confidence: f64,
         half_width: impl Fn(&CellResult<C>, usize, f64) -> f64,
     ) -> Option<f64> {
-        let passes = cells.first()?.value[0].len();
+        let passes = cells.first()?.borrow().value[0].len();
         if passes < 2 {
             return None;
         }
         // One quantile serves all cells.
         let t = student_t_quantile(confidence, (passes - 1) as f64);
-        let each = || cells.iter().flat_map(|cell| (0..results).map(move |c| (cell, c)));
+        let each = || cells.iter().flat_map(|cell| (0..results).map(move |c| (cell.borrow(), c)));
         let value = |cell: &CellResult<C>, c: usize| cell.value[c].mean().unwrap_or(0.0).abs();
         match self {
             ErrorOver::Image => {

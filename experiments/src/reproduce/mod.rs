@@ -13,7 +13,6 @@ mod command_cost;
 mod context;
 mod controlled;
 mod covered;
-mod cpu_clock;
 mod cube_error;
 mod cube_face;
 mod cube_field;
@@ -61,7 +60,7 @@ use std::path::{Path, PathBuf};
 
 use photonlab_measure::{Budget, Record};
 
-use crate::{Failure, command, interrupt, system};
+use crate::{Failure, command, cpu_clock, interrupt, system};
 use claims::Claim;
 use context::Context;
 

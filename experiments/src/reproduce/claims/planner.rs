@@ -17,6 +17,7 @@ use crate::{
     by_channels,
     certificate::is_clear_of_edges,
     command::Options,
+    ladder::{Ladder, Silent},
     planned::candidates,
     reproduce::{
         case_reading::put_down,
@@ -24,7 +25,7 @@ use crate::{
         covered::Truth,
         cpu_clock::{CPU_SECONDS, CpuClock, microseconds},
         fnv::fnv1a,
-        hindsight::{Best, Ladder, Silent, largest_error},
+        hindsight::{Best, largest_error},
         lab::Lab,
         table::row,
     },
@@ -134,12 +135,15 @@ fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> a
         return Ok(Vec::new());
     }
     let seeds = first..first + p.seeds;
-    let climb =
-        |&entrant: &Candidate| Ladder::climb(&session, &cells, &truths, entrant, seeds.clone(), p.ladder_seconds);
-    let ladders: Vec<Ladder> = entrants.iter().map(climb).collect();
+    let climb = |&entrant: &Candidate| {
+        Ladder::climb(&session, &cells, entrant, seeds.clone(), p.ladder_seconds, &|outcome| {
+            largest_error(&outcome, &truths)
+        })
+    };
+    let ladders: Vec<Ladder<f64>> = entrants.iter().map(climb).collect();
     let mut races = Vec::new();
     for &target in &p.targets {
-        let Some(best) = Ladder::best(&ladders, target).filter(|best| best.seconds <= p.longest) else { continue };
+        let Some(best) = Best::of(&ladders, target).filter(|best| best.seconds <= p.longest) else { continue };
         let runs = seeds
             .clone()
             .map(|seed| read(&session, &cells, &truths, &entrants, (target, seed)))

@@ -3,27 +3,27 @@
 use std::{fs, time::Instant};
 
 /// What [`CpuClock`] measures, for captions.
-pub(super) const CPU_SECONDS: &str =
+pub(crate) const CPU_SECONDS: &str =
     "CPU seconds are the time on processors of all threads of the process (wall time where the system does not tell)";
 
 /// Seconds to a millionth: the digits below are no measurement, and records are long.
-pub(super) fn microseconds(seconds: f64) -> f64 {
+pub(crate) fn microseconds(seconds: f64) -> f64 {
     (1e6 * seconds).round() / 1e6
 }
 
 /// Runs from its start.
-pub(super) struct CpuClock {
+pub(crate) struct CpuClock {
     cpu: Option<f64>,
     wall: Instant,
 }
 
 impl CpuClock {
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         Self { cpu: on_processors(), wall: Instant::now() }
     }
 
     /// Seconds since the start, of all threads that live on.
-    pub(super) fn seconds(&self) -> f64 {
+    pub(crate) fn seconds(&self) -> f64 {
         match (self.cpu, on_processors()) {
             (Some(start), Some(now)) => now - start,
             _ => self.wall.elapsed().as_secs_f64(),
