@@ -53,7 +53,7 @@ pub(crate) fn chart(arguments: &command::Chart) -> Result<(), Failure> {
     system::start_threads(Some(1))?;
     let mut loaded = Loaded::new(&arguments.scene)?;
     loaded.needs_light(&arguments.scene.scene)?;
-    let read = Reads::of(&mut loaded, &arguments.scene.scene, Some(MOST_PIXELS))?;
+    let read = Reads::of(&mut loaded, &arguments.scene.scene, MOST_PIXELS)?;
     let stem = arguments.scene.scene.file_stem().map_or("scene".into(), |stem| stem.to_string_lossy().into_owned());
     let folder = arguments.output.clone().unwrap_or_else(|| PathBuf::from(format!("{stem}-chart")));
     interrupt::make_folder(&folder).map_err(|error| {

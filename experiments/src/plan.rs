@@ -16,6 +16,8 @@ use crate::{
     system,
 };
 
+/// Pixels across and down of an image that a plan reads at most; times are told for all of it.
+const MOST_PIXELS: u32 = 128;
 /// No pilot starts later than this.
 const PATIENCE: Duration = Duration::from_secs(3);
 
@@ -26,7 +28,7 @@ pub(crate) fn plan(arguments: &command::Plan) -> Result<(), Failure> {
     let mut text = needs(&loaded, &arguments.scene.scene.display().to_string());
     if let Some(target) = arguments.target_error {
         loaded.needs_light(&arguments.scene.scene)?;
-        let reads = Reads::of(&mut loaded, &arguments.scene.scene, None)?;
+        let reads = Reads::of(&mut loaded, &arguments.scene.scene, MOST_PIXELS)?;
         let options = &Options { target_error: Some(target), ..Options::usual() };
         text += &by_channels!(loaded.needs.channels, forecasts(arguments, &loaded, options, (target, &reads)))?;
     }
@@ -77,7 +79,7 @@ fn forecasts<const C: usize>(
         reads.over(),
         system::threads()
     );
-    text += &table(&plan);
+    text += &table(&plan, reads.smaller_by);
     let defines =
         arguments.scene.define.iter().map(|(name, value)| format!(" -D {}", quoted(&format!("{name}={value}"))));
     let scene = quoted(&arguments.scene.scene.display().to_string()) + &defines.collect::<String>();
@@ -92,7 +94,7 @@ fn forecasts<const C: usize>(
 }
 
 /// Candidates, the soonest first, and the choice.
-fn table<const C: usize>(plan: &Plan<'_, C>) -> String {
+fn table<const C: usize>(plan: &Plan<'_, C>, smaller_by: f64) -> String {
     let mut text = String::new();
     let mut order: Vec<usize> = (0..plan.entrants.len()).collect();
     let seconds =
@@ -100,7 +102,7 @@ fn table<const C: usize>(plan: &Plan<'_, C>) -> String {
     order.sort_by(|&a, &b| (a != plan.chosen).cmp(&(b != plan.chosen)).then(seconds(a).total_cmp(&seconds(b))));
     for index in order {
         let Entrant { candidate, standing } = &plan.entrants[index];
-        let time = words(standing);
+        let time = words(standing, smaller_by);
         let mark = if index == plan.chosen { '*' } else { ' ' };
         let _ = writeln!(text, "{mark} {:<28} {time}", candidate.title());
     }
@@ -111,10 +113,10 @@ fn table<const C: usize>(plan: &Plan<'_, C>) -> String {
     text + "; intervals at 90 %\n"
 }
 
-/// How a candidate stands.
-fn words(standing: &Standing) -> String {
+/// How a candidate stands, where the image that was read is smaller than that of the command.
+fn words(standing: &Standing, smaller_by: f64) -> String {
     match standing {
-        Standing::Foretold(forecast) => interval(forecast),
+        Standing::Foretold(forecast) => interval(&forecast.times(smaller_by)),
         Standing::OutOfReach => "not foretold: too little found, or out of reach".into(),
         Standing::NotRaced(Why::DoneSoon) => "not raced: the best is done sooner than its pilots".into(),
         Standing::NotRaced(Why::KinIsBehind) => "not raced: progressive, its kin, is far behind".into(),

@@ -13,20 +13,22 @@ pub(crate) struct Reads {
     pub(crate) error_over: ErrorOver,
     /// Columns and rows of the image, if it is one.
     pub(crate) film: Option<Film>,
+    /// How many times as many pixels the image of the command has.
+    pub(crate) smaller_by: f64,
     /// True if goniometers are left out.
     without_goniometers: bool,
 }
 
 impl Reads {
     /// An image has at most so many pixels across and down.
-    pub(crate) fn of(loaded: &mut Loaded, file: &Path, most_pixels: Option<u32>) -> Result<Self, Failure> {
+    pub(crate) fn of(loaded: &mut Loaded, file: &Path, most_pixels: u32) -> Result<Self, Failure> {
         let scene = &mut loaded.world.scene;
         let mut cells = Cell::of_meters(scene);
         let all = cells.len();
         cells.retain(|cell| !matches!(cell.target, Target::Leaving { .. }));
         let without_goniometers = cells.len() < all;
         if !cells.is_empty() {
-            return Ok(Self { cells, error_over: ErrorOver::Worst, film: None, without_goniometers });
+            return Ok(Self { cells, error_over: ErrorOver::Worst, film: None, smaller_by: 1.0, without_goniometers });
         }
         let is_camera = |index: &usize| matches!(scene.sensors[*index].receiver, Receiver::Camera(_));
         let camera = (0..scene.sensors.len()).find(is_camera).ok_or_else(|| {
@@ -36,16 +38,15 @@ impl Reads {
             };
             Failure::usage(format!("{}:1: scene: {why}", file.display()))
         })?;
-        if let Some(most) = most_pixels {
-            let film = scene.sensors[camera].film;
-            let by = (f64::from(most) / f64::from(film.width.max(film.height))).min(1.0);
-            let smaller = |pixels: u32| ((f64::from(pixels) * by).round() as u32).max(1);
-            crate::render::resize(loaded, camera, [smaller(film.width), smaller(film.height)]);
-        }
+        let asked = scene.sensors[camera].film;
+        let by = (f64::from(most_pixels) / f64::from(asked.width.max(asked.height))).min(1.0);
+        let smaller = |pixels: u32| ((f64::from(pixels) * by).round() as u32).max(1);
+        crate::render::resize(loaded, camera, [smaller(asked.width), smaller(asked.height)]);
         let scene = &loaded.world.scene;
         let film = Some(scene.sensors[camera].film);
         let cells = Cell::of_sensor(scene, camera);
-        Ok(Self { cells, error_over: ErrorOver::Image, film, without_goniometers })
+        let smaller_by = f64::from(asked.width) * f64::from(asked.height) / cells.len() as f64;
+        Ok(Self { cells, error_over: ErrorOver::Image, film, smaller_by, without_goniometers })
     }
 
     /// The command that reads it.
@@ -61,6 +62,9 @@ impl Reads {
     /// What is read.
     pub(crate) fn words(&self) -> String {
         match self.film {
+            Some(Film { width, height }) if self.smaller_by > 1.0 => {
+                format!("the first camera's image, read at {width} x {height} pixels")
+            }
             Some(Film { width, height }) => format!("the first camera's image, {width} x {height} pixels"),
             None if self.without_goniometers => {
                 format!("{} cells of all meters but goniometers (--sensor ID reads one by itself)", self.cells.len())

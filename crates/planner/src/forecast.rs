@@ -27,6 +27,11 @@ impl Forecast {
         Self { passes, seconds, low: seconds * (-spread).exp(), high: seconds * spread.exp() }
     }
 
+    /// For so many times as many cells.
+    pub fn times(&self, more: f64) -> Self {
+        Self { seconds: self.seconds * more, low: self.low * more, high: self.high * more, ..*self }
+    }
+
     /// In passes that are so many times as long, which need fewer photons and rays in all by a power of that.
     pub(crate) fn in_longer_passes(&self, longer: f64, gain: f64) -> Self {
         let less = longer.powf(-gain);

@@ -167,7 +167,8 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         let (scale, by) = first.longer(LONGER);
         let cost: f64 =
             field.trials.iter().map(|trial| TRIED_BY * trial.longer(LONGER).1 * trial.seconds_of_pass()).sum();
-        let in_time = field.deadline.is_none_or(|deadline| Instant::now() + Duration::from_secs_f64(cost) <= deadline);
+        let left = field.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()).as_secs_f64());
+        let in_time = left.is_none_or(|left| cost <= left);
         // Passes that hold all they may hold do not grow.
         if by < 2.0 || !in_time {
             return None;

@@ -34,8 +34,6 @@ struct Parameters {
     seed: u64,
     /// Over the whole picture.
     replicates: u64,
-    /// Far from edges: wide discs share photons, so that one picture says less, and costs less.
-    smooth_replicates: u64,
     /// Of a run over the whole picture, ascending.
     photons: Vec<u64>,
     /// Of a run far from edges.
@@ -62,6 +60,8 @@ struct Radii {
     radius: f64,
     /// The same far from edges.
     smooth_radius: f64,
+    /// Pictures far from edges: wide discs share photons, so that one says less, and costs less.
+    smooth_replicates: u64,
     /// What counts as far.
     from_edges: f64,
 }
@@ -86,7 +86,7 @@ impl Parameters {
             },
             Course {
                 region: Region::FromEdges(radii.from_edges),
-                seeds: self.seeds(self.smooth_replicates),
+                seeds: self.seeds(radii.smooth_replicates),
                 photons: &self.smooth_photons,
                 radius: radii.smooth_radius,
                 power: SMOOTH_POWER,
@@ -111,7 +111,8 @@ struct Law {
 
 pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let p: Parameters = context.parameters()?;
-    let mut found = Findings { seeds: p.seeds(p.replicates.max(p.smooth_replicates)).collect(), ..Findings::default() };
+    let most = p.replicates.max(p.cube.smooth_replicates).max(p.cornell_box.smooth_replicates);
+    let mut found = Findings { seeds: p.seeds(most).collect(), ..Findings::default() };
     let field = CubeField::new();
     let laws = p.courses(p.cube).map(|course| Law::of(&field, &course, p.target));
     let scenes = [cube(&p, &field, &mut found)?, cornell_box(&p, &mut found)?];
