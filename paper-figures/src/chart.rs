@@ -57,7 +57,7 @@ impl<'a> Chart<'a> {
         let (x, y) = (horizontal(figure), vertical(figure)?);
         let styles = styles(figure);
         let inside = WIDTH - 2.0 * MARGIN;
-        let title = text::wrap(&figure.title, TITLE, inside);
+        let title = text::wrap(&figure.title, TITLE * text::BOLD, inside);
         let legend = Legend::new(figure, &styles, cut_points(figure, &y) > 0, inside);
         let x_label = text::wrap(&figure.x.label, LABEL, inside);
         let y_label = text::wrap(&figure.y.label, LABEL, inside);

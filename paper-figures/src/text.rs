@@ -1,5 +1,8 @@
 //! How wide text is, without a font: estimated for a wide sans-serif, so that labels do not collide in any.
 
+/// How much wider bold letters are.
+pub(crate) const BOLD: f64 = 1.15;
+
 /// The estimated width of `text` at `size`, in the unit of `size`.
 pub(crate) fn width(text: &str, size: f64) -> f64 {
     text.chars().map(em).sum::<f64>() * size

@@ -98,8 +98,8 @@ fn chart_leaves_two_figures_and_their_numbers() {
     let program = program();
     program.write("open.xml", OPEN);
     let answer = program.run(&format!("chart {} -o made", program.path("open.xml").display()));
-    let told = answer.success("chart");
     assert!(answer.took < Duration::from_secs(300));
+    let told = answer.success("chart");
     for word in ["final-gather", "half-width", "made/error.svg"] {
         assert!(told.contains(word), "`{word}` is not in:\n{told}");
     }
@@ -108,7 +108,7 @@ fn chart_leaves_two_figures_and_their_numbers() {
     }
     let rows: Value = serde_json::from_slice(&program.bytes("made/chart.json")).expect("JSON");
     let marks = rows["marks"].as_array().expect("marks");
-    assert!(marks.len() > 2 && marks.iter().any(|mark| mark["on_front"] == true));
+    assert!(marks.len() > 1 && marks.iter().any(|mark| mark["on_front"] == true));
     // Evenly spread points: more of them err less.
     let error = |mark: &Value| mark["error"].as_f64().expect("an error");
     assert!(error(&marks[marks.len() - 1]) < error(&marks[0]), "{rows:#}");

@@ -120,18 +120,24 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
     /// Lets candidates run their first passes: at once, or after a look at those before them, if they enter at all.
     fn enter_all(&self, field: &mut Field<'p, 'c, C>, candidates: &[Candidate], start: Instant) {
         let in_heat = |heat: Heat| candidates.iter().copied().enumerate().filter(move |(_, it)| it.heat() == heat);
+        let mut slow_ones_entered = false;
         for (number, candidate) in in_heat(Heat::First) {
             if field.soonest().is_some_and(|best| best.high <= SOON) {
                 return;
             }
             self.enter_unless_late(field, (number, candidate), start);
+            // What starts slowly and then is quick is tried before what hardly ever wins.
+            if !slow_ones_entered && field.soonest().is_some_and(|best| best.low > LATE) {
+                in_heat(Heat::IfTimeIsLeft).for_each(|entrant| self.enter_unless_late(field, entrant, start));
+                slow_ones_entered = true;
+            }
         }
         field.halve();
         let kin_is_left = field.trials.is_empty() || field.trials.iter().any(|trial| trial.candidate.is_direct_view());
         let time_is_left = field.best().is_none_or(|best| best.seconds > LATE);
-        let late =
-            [(Heat::IfKinIsLeft, kin_is_left, Why::KinIsBehind), (Heat::IfTimeIsLeft, time_is_left, Why::StartsSlowly)];
-        for (heat, enters, why_not) in late {
+        let kin = (Heat::IfKinIsLeft, kin_is_left, Why::KinIsBehind);
+        let slow = (Heat::IfTimeIsLeft, time_is_left, Why::StartsSlowly);
+        for (heat, enters, why_not) in [kin].into_iter().chain((!slow_ones_entered).then_some(slow)) {
             for (number, candidate) in in_heat(heat) {
                 if enters {
                     self.enter_unless_late(field, (number, candidate), start);
