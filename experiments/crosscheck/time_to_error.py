@@ -27,7 +27,7 @@ JOBS = {
     "cornell-box": ({"type": "path", "max_depth": -1}, 512, [
         "--method progressive --photons 4e6 --spp 64",
         "--method progressive --photons 1.4e7 --spp 192",
-        "--cache --passes 16 --spp 128 --gather-rays 128",
+        "--cache --passes 16 --spp 160 --gather-rays 160",
         "--method final-gather --spp 512",
         "--method path --spp 512",
     ]),

@@ -118,7 +118,7 @@ fn words(standing: &Standing, smaller_by: f64) -> String {
     match standing {
         Standing::Foretold(forecast) => interval(&forecast.times(smaller_by)),
         Standing::OutOfReach => "not foretold: too little found, or out of reach".into(),
-        Standing::NotRaced(Why::DoneSoon) => "not raced: the best is done sooner than its pilots".into(),
+        Standing::NotRaced(Why::DoneSoon) => "not raced: its pilots would take long beside the best".into(),
         Standing::NotRaced(Why::KinIsBehind) => "not raced: progressive, its kin, is far behind".into(),
         Standing::NotRaced(Why::StartsSlowly) => {
             "not raced: to choose its places would take as long as the best".into()

@@ -1,6 +1,6 @@
 //! The candidates that are still in the race.
 
-use std::time::Instant;
+use std::{cmp::Ordering, time::Instant};
 
 use photonlab_readout::{CellResult, ReadError};
 
@@ -17,6 +17,10 @@ const ROUNDS: [(u64, usize); 4] = [(FIRST_PASSES, 6), (8, 3), (16, 2), (32, 1)];
 /// A round of all that are left may cost this share of what the best still needs.
 const WORTH: f64 = 0.1;
 
+/// No other enters where the best is done within so many seconds, or first passes would take more than this share of what it needs.
+const SOON: f64 = 0.1;
+const MOST_LOST: f64 = 0.25;
+
 /// Candidates at one length of passes.
 pub(crate) struct Field<'p, 'c, const C: usize> {
     /// Once ranked, the best first.
@@ -28,6 +32,9 @@ pub(crate) struct Field<'p, 'c, const C: usize> {
     pub(crate) deadline: Option<Instant>,
     /// How each candidate stood last.
     pub(crate) standings: Vec<Standing>,
+    /// How many have entered, and what their first passes took, seconds.
+    pub(crate) entered: f64,
+    pub(crate) spent: f64,
     /// Why one of them could not run.
     pub(crate) failure: Option<ReadError>,
 }
@@ -37,6 +44,8 @@ impl<'c, const C: usize> Field<'_, 'c, C> {
     pub(crate) fn enter(&mut self, number: usize, trial: Result<Trial<'c, C>, ReadError>) {
         match trial.and_then(|mut trial| self.run_to(&mut trial, FIRST_PASSES).map(|()| trial)) {
             Ok(trial) => {
+                self.entered += 1.0;
+                self.spent += trial.spent();
                 self.foretell(&trial);
                 self.trials.push(trial);
                 self.drop_the_hopeless();
@@ -94,6 +103,19 @@ impl<'c, const C: usize> Field<'_, 'c, C> {
     pub(crate) fn soonest(&self) -> Option<Forecast> {
         let forecasts = self.trials.iter().filter_map(|trial| self.standings[trial.number].forecast());
         forecasts.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+    }
+
+    /// True if another would cost more than it may: the best is nearly done, or the first passes of all but the best, with those of one more,
+    /// take too large a share of what the best needs.
+    pub(crate) fn is_decided(&self) -> bool {
+        let seconds = |trial: &&Trial<'c, C>| self.standings[trial.number].forecast().map(|forecast| forecast.seconds);
+        let foretold = self.trials.iter().filter(|trial| seconds(trial).is_some());
+        let Some(best) = foretold.min_by(|a, b| seconds(a).partial_cmp(&seconds(b)).unwrap_or(Ordering::Equal)) else {
+            return false;
+        };
+        let Some(forecast) = self.standings[best.number].forecast() else { return false };
+        let lost = self.spent - best.spent() + self.spent / self.entered;
+        forecast.high <= SOON || lost > MOST_LOST * forecast.seconds
     }
 
     pub(crate) fn is_late(&self) -> bool {

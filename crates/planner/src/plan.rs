@@ -29,7 +29,7 @@ pub enum Standing {
 /// Why a candidate did not run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// The best is done before a pilot would tell anything.
+    /// The best is done so soon that more pilots would cost more than they may.
     DoneSoon,
     /// What reads the map at the point itself is far behind.
     KinIsBehind,

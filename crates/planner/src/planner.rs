@@ -31,8 +31,6 @@ const SECONDS_IN_THE_DARK: f64 = 5.0;
 const FINER: f64 = 4.0;
 /// Passes that a time limit should hold at least.
 const PASSES_IN_TIME: f64 = 20.0;
-/// No other enters where the best is done within so many seconds: pilots would take as long.
-const SOON: f64 = 0.1;
 /// What starts slowly enters where the best of the others still needs so many seconds.
 const LATE: f64 = 5.0;
 /// Of a time limit pilots take this share at most.
@@ -113,6 +111,8 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             trusts: self.trusts,
             deadline: self.patience.into_iter().chain(of_limit).min().map(|patience| start + patience),
             standings: vec![Standing::NotRaced(Why::DoneSoon); candidates],
+            entered: 0.0,
+            spent: 0.0,
             failure: None,
         }
     }
@@ -122,7 +122,7 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         let in_heat = |heat: Heat| candidates.iter().copied().enumerate().filter(move |(_, it)| it.heat() == heat);
         let mut slow_ones_entered = false;
         for (number, candidate) in in_heat(Heat::First) {
-            if field.soonest().is_some_and(|best| best.high <= SOON) {
+            if field.is_decided() {
                 return;
             }
             self.enter_unless_late(field, (number, candidate), start);
