@@ -60,7 +60,7 @@ pub(crate) fn chart(arguments: &command::Chart) -> Result<(), Failure> {
         Failure::usage(format!("-o {}: cannot be made: {error}; choose a writable folder", folder.display()))
     })?;
     let chart = by_channels!(loaded.needs.channels, measure(arguments, &loaded, &read))?;
-    let name = arguments.scene.scene.display().to_string();
+    let name = arguments.scene.scene.file_name().map_or(stem, |name| name.to_string_lossy().into_owned());
     let rows = serde_json::to_string_pretty(&chart.rows(&name, &read)).map_err(anyhow::Error::from)?;
     interrupt::write_whole(&folder.join("chart.json"), rows.as_bytes())?;
     for figure in chart.figures(&name, &read) {
