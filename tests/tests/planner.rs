@@ -68,7 +68,7 @@ fn a_run_that_was_looked_at_has_the_bits_of_one_that_was_not() {
 fn a_race_meets_its_target_in_95_of_100() {
     let (scene, lab) = sphere();
     let truth = scene.mean_irradiance()[0];
-    let (races, target) = (200, 0.005);
+    let (races, target) = (100, 0.002);
     let mut missed = 0;
     for number in 0..races {
         let raced = lab.race::<1>(&all(seed(4000 + number)), target);
