@@ -3,14 +3,9 @@
 use std::time::Duration;
 
 use photonlab_planner::Candidate;
-use photonlab_readout::{Cell, Ends, ErrorOver, Method, Outcome, Session, Settings};
+use photonlab_readout::{Cell, Ends, ErrorOver, Method, Outcome, Session, Settings, Silent};
 
-use crate::{
-    Failure,
-    chart::Kept,
-    ladder::{Ladder, Silent},
-    loaded::read_failure,
-};
+use crate::{Failure, chart::Kept, ladder::Ladder, loaded::read_failure};
 
 /// Wall time of each, over that of a charted method's longest run.
 const LONGER: f64 = 10.0;

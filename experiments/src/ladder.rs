@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use photonlab_planner::Candidate;
-use photonlab_readout::{Cell, Ends, Observer, Outcome, Session, Settings, Source};
+use photonlab_readout::{Cell, Ends, Outcome, Session, Settings, Silent, Source};
 
 use crate::cpu_clock::CpuClock;
 
@@ -15,13 +15,6 @@ const LENGTHS: i32 = 10;
 
 /// No run is told to take less: the system books time in ticks.
 const SHORTEST: f64 = 1e-5;
-
-/// Watches nothing.
-pub(crate) struct Silent;
-
-impl Observer for Silent {
-    fn pass_done(&self, _: u64, _: std::time::Duration, _: Option<f64>) {}
-}
 
 /// Runs of one candidate, shortest first, each by several seeds; `T` is what is kept of a run.
 pub(crate) struct Ladder<T> {

@@ -1,15 +1,12 @@
 //! Scenes traced and read in this process, as the command does it.
 
-use std::{
-    path::{Path, PathBuf},
-    time::Duration,
-};
+use std::path::{Path, PathBuf};
 
 use photonlab_gather::Estimator;
 use photonlab_photometry::{Channels, Palette, Response};
 use photonlab_planner::{Candidate, Forecast, Planner};
 use photonlab_readout::{
-    Aids, Cell, CellResult, Direct, Ends, ErrorOver, Method, Observer, Outcome, Schedule, Session, Settings, Source,
+    Aids, Cell, CellResult, Direct, Ends, ErrorOver, Method, Outcome, Schedule, Session, Settings, Silent, Source,
     Target, Wanted,
 };
 use photonlab_sampling::{EmissionPlan, Optics, PassOptics, Sought};
@@ -18,6 +15,17 @@ use photonlab_scene::{
     read::{read_scene, read_scene_str},
 };
 use photonlab_trace::{Classes, Job, Limits, Traced, trace};
+
+/// A floor below a lamp, with a meter on it; nothing else reflects: direct light alone.
+pub const LAMP_OVER_FLOOR: &str = r#"<scene version="3.0.0">
+  <shape type="rectangle" id="floor"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+    <sensor type="irradiancemeter" id="E"/></shape>
+  <shape type="rectangle" id="lamp">
+    <transform name="to_world"><rotate x="1" angle="180"/><translate z="1"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
+    <emitter type="area"><rgb name="radiance" value="1"/></emitter>
+  </shape>
+</scene>"#;
 
 /// Confidence of the intervals that may end a run.
 const CONFIDENCE: f64 = 0.95;
@@ -39,12 +47,6 @@ pub struct Raced<const C: usize> {
     pub forecast: Option<Forecast>,
     /// What it found.
     pub outcome: Outcome<C>,
-}
-
-struct Silent;
-
-impl Observer for Silent {
-    fn pass_done(&self, _: u64, _: Duration, _: Option<f64>) {}
 }
 
 impl Lab {

@@ -19,7 +19,7 @@ pub use family::{FALSE_ALARM, Family, SUITE};
 pub use field::{Field, column, replicates};
 pub use icosphere::icosphere;
 pub use image::{Exr, ImageError};
-pub use lab::{Lab, scene_file, scene_text, settings};
+pub use lab::{LAMP_OVER_FLOOR, Lab, scene_file, scene_text, settings};
 pub use mutant::{Mutant, MutantError};
 pub use openimageio::{OpenImageIo, Said};
 pub use program::{Answer, Program};

@@ -4,18 +4,7 @@ use photonlab_measure::{Stopped, binomial_upper_tail};
 use photonlab_photometry::Colour;
 use photonlab_readout::{Method, Settings};
 use photonlab_reference::integrating_sphere::IntegratingSphere;
-use photonlab_tests::{Family, Lab, seed, settings};
-
-/// A floor below a lamp, with a meter on it; nothing else reflects.
-const OPEN: &str = r#"<scene version="3.0.0">
-  <shape type="rectangle" id="floor"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
-    <sensor type="irradiancemeter" id="E"/></shape>
-  <shape type="rectangle" id="lamp">
-    <transform name="to_world"><rotate x="1" angle="180"/><translate z="1"/></transform>
-    <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
-    <emitter type="area"><rgb name="radiance" value="1"/></emitter>
-  </shape>
-</scene>"#;
+use photonlab_tests::{Family, LAMP_OVER_FLOOR, Lab, seed, settings};
 
 fn all(seed: u64) -> Vec<Settings> {
     let methods = [
@@ -38,10 +27,10 @@ fn sphere() -> (IntegratingSphere<1>, Lab) {
 /// Direct light alone: rays to the lamp find all of it.
 #[test]
 fn where_no_map_is_needed_none_is_used() {
-    let raced = Lab::new(OPEN).race::<1>(&all(1), 0.01);
+    let raced = Lab::new(LAMP_OVER_FLOOR).race::<1>(&all(1), 0.01);
     assert_eq!(raced.entrants, 1);
     assert_eq!((raced.outcome.photons, raced.outcome.stopped), (0, Stopped::Target));
-    let lit = Lab::new(&OPEN.replace("value=\"0\"", "value=\"0.5\"")).race::<1>(&all(1), 0.01);
+    let lit = Lab::new(&LAMP_OVER_FLOOR.replace("value=\"0\"", "value=\"0.5\"")).race::<1>(&all(1), 0.01);
     assert!(lit.entrants > 5, "a lamp that reflects makes light that only maps or paths find");
 }
 

@@ -2,19 +2,8 @@
 
 use std::time::Duration;
 
-use photonlab_tests::{Program, scene_file};
+use photonlab_tests::{LAMP_OVER_FLOOR, Program, scene_file};
 use serde_json::Value;
-
-/// A floor below a lamp, with a meter on it; nothing else reflects.
-const OPEN: &str = r#"<scene version="3.0.0">
-  <shape type="rectangle" id="floor"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
-    <sensor type="irradiancemeter" id="E"/></shape>
-  <shape type="rectangle" id="lamp">
-    <transform name="to_world"><rotate x="1" angle="180"/><translate z="1"/></transform>
-    <bsdf type="diffuse"><rgb name="reflectance" value="0"/></bsdf>
-    <emitter type="area"><rgb name="radiance" value="1"/></emitter>
-  </shape>
-</scene>"#;
 
 fn program() -> Program {
     Program::new(env!("CARGO_BIN_EXE_photonlab-under-test"))
@@ -39,7 +28,7 @@ fn plan_tells_the_choice_and_the_command_that_follows_it() {
     ] {
         assert!(told.contains(word), "`{word}` is not in:\n{told}");
     }
-    program.write("a scene.xml", OPEN);
+    program.write("a scene.xml", LAMP_OVER_FLOOR);
     let folder = program.path("a scene.xml").display().to_string();
     let line = format!("photonlab plan '{folder}' --target-error 2%");
     let Some(answer) = program.shell(&line) else {
@@ -96,7 +85,7 @@ fn a_race_obeys_the_options() {
 #[test]
 fn chart_leaves_two_figures_and_their_numbers() {
     let program = program();
-    program.write("open.xml", OPEN);
+    program.write("open.xml", LAMP_OVER_FLOOR);
     let answer = program.run(&format!("chart {} -o made", program.path("open.xml").display()));
     assert!(answer.took < Duration::from_secs(300));
     let told = answer.success("chart");

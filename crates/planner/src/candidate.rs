@@ -121,11 +121,6 @@ impl Candidate {
         }
     }
 
-    /// True if it reads the map at the point itself.
-    pub(crate) fn is_direct_view(&self) -> bool {
-        matches!(self.settings.method, Method::Radius { .. } | Method::Adaptive | Method::Nearest { .. })
-    }
-
     /// Passes that are so many times as long as the shortest.
     pub fn schedule(&self, cells: usize, demands: &Demands, scale: f64, ends: Ends) -> Schedule {
         let [more_photons, more_rays] = self.balance.factors();

@@ -1,6 +1,6 @@
 //! The candidates that are still in the race.
 
-use std::{cmp::Ordering, time::Instant};
+use std::time::Instant;
 
 use photonlab_readout::{CellResult, ReadError};
 
@@ -16,7 +16,6 @@ const FIRST_PASSES: u64 = 4;
 const ROUNDS: [(u64, usize); 4] = [(FIRST_PASSES, 6), (8, 3), (16, 2), (32, 1)];
 /// A round of all that are left may cost this share of what the best still needs.
 const WORTH: f64 = 0.1;
-
 /// No other enters where the best is done within so many seconds, or first passes would take more than this share of what it needs.
 const SOON: f64 = 0.1;
 const MOST_LOST: f64 = 0.25;
@@ -101,21 +100,21 @@ impl<'c, const C: usize> Field<'_, 'c, C> {
 
     /// What is foretold of the soonest, whether they have been ranked or not.
     pub(crate) fn soonest(&self) -> Option<Forecast> {
-        let forecasts = self.trials.iter().filter_map(|trial| self.standings[trial.number].forecast());
-        forecasts.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
+        Some(self.soonest_trial()?.1)
+    }
+
+    fn soonest_trial(&self) -> Option<(&Trial<'c, C>, Forecast)> {
+        let forecasts = self.trials.iter().filter_map(|trial| Some((trial, self.standings[trial.number].forecast()?)));
+        forecasts.min_by(|a, b| a.1.seconds.total_cmp(&b.1.seconds))
     }
 
     /// True if another would cost more than it may: the best is nearly done, or the first passes of all but the best, with those of one more,
     /// take too large a share of what the best needs.
     pub(crate) fn is_decided(&self) -> bool {
-        let seconds = |trial: &&Trial<'c, C>| self.standings[trial.number].forecast().map(|forecast| forecast.seconds);
-        let foretold = self.trials.iter().filter(|trial| seconds(trial).is_some());
-        let Some(best) = foretold.min_by(|a, b| seconds(a).partial_cmp(&seconds(b)).unwrap_or(Ordering::Equal)) else {
-            return false;
-        };
-        let Some(forecast) = self.standings[best.number].forecast() else { return false };
-        let lost = self.spent - best.spent() + self.spent / self.entered;
-        forecast.high <= SOON || lost > MOST_LOST * forecast.seconds
+        self.soonest_trial().is_some_and(|(best, forecast)| {
+            let lost = self.spent - best.spent() + self.spent / self.entered;
+            forecast.high <= SOON || lost > MOST_LOST * forecast.seconds
+        })
     }
 
     pub(crate) fn is_late(&self) -> bool {

@@ -133,7 +133,8 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             }
         }
         field.halve();
-        let kin_is_left = field.trials.is_empty() || field.trials.iter().any(|trial| trial.candidate.is_direct_view());
+        let kin_is_left = field.trials.is_empty()
+            || field.trials.iter().any(|trial| trial.candidate.settings.method.is_direct_view());
         let time_is_left = field.best().is_none_or(|best| best.seconds > LATE);
         let kin = (Heat::IfKinIsLeft, kin_is_left, Why::KinIsBehind);
         let slow = (Heat::IfTimeIsLeft, time_is_left, Why::StartsSlowly);

@@ -44,4 +44,4 @@ pub use ongoing::{Ongoing, PASSES_BEFORE_STOPPING};
 pub use outcome::{CellResult, ErrorOver, Outcome};
 pub use pass::USUAL_PASSES;
 pub use schedule::{Demands, Ends, Schedule, Wanted};
-pub use session::{Observer, ReadError, Session, Source};
+pub use session::{Observer, ReadError, Session, Silent, Source};

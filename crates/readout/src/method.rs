@@ -35,7 +35,7 @@ pub enum Method {
 
 impl Method {
     /// True if the map is read at the point itself.
-    pub(crate) fn is_direct_view(&self) -> bool {
+    pub fn is_direct_view(&self) -> bool {
         match self {
             Method::Nearest { .. } | Method::Radius { .. } | Method::Adaptive => true,
             Method::FinalGather { .. } | Method::Path | Method::Bins => false,

@@ -5,8 +5,11 @@ use std::time::{Duration, Instant};
 use photonlab_measure::Stopped;
 
 use crate::{
-    Cell, CellResult, Method, Observer, Outcome, ReadError, Schedule, Session, Source, compiled::runner, outlook::Laws,
-    run::Run, session::passes_at_hand,
+    Cell, CellResult, Observer, Outcome, ReadError, Schedule, Session, Source,
+    compiled::runner,
+    outlook::{Laws, bias_falls},
+    run::Run,
+    session::passes_at_hand,
 };
 
 /// Passes before a run may end for its error: fewer would trust an error bar that is itself uncertain.
@@ -133,15 +136,8 @@ impl<'s, const C: usize> Ongoing<'s, C> {
     fn target_is_out_of_reach(&self) -> bool {
         let Some(target) = self.schedule.ends.target_error else { return false };
         let session = &self.session;
-        let shrinks = match session.settings.method {
-            // The sites of a cache stay where they are, and what it errs between them with them.
-            Method::FinalGather { .. } if session.caches() => false,
-            Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
-            Method::Nearest { k } => k.is_none(),
-            Method::Adaptive | Method::Path | Method::Bins => true,
-        };
         // What shrinks is given more passes before it is given up.
-        let patience = if shrinks { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
+        let patience = if bias_falls(session) { 4 * PASSES_BEFORE_GIVING_UP } else { PASSES_BEFORE_GIVING_UP };
         let floor = || session.error_over.floor_of(&self.run.cells, session.optics.results(), session.confidence);
         self.run.passes >= patience && floor().is_none_or(|floor| floor > target)
     }

@@ -4,6 +4,18 @@ use photonlab_measure::Replicates;
 
 use crate::{Method, Session, maps::SHRINK};
 
+/// True if more passes lower a run's bias: radii, or numbers of photons, that the program chooses shrink from pass to pass. Where there is no radius
+/// there is no bias to last.
+pub(crate) fn bias_falls<const C: usize>(session: &Session<'_, C>) -> bool {
+    match session.settings.method {
+        // The sites of a cache stay where they are, and what it errs between them with them.
+        Method::FinalGather { .. } if session.caches() => false,
+        Method::Radius { radius } | Method::FinalGather { radius } => radius.is_none(),
+        Method::Nearest { k } => k.is_none(),
+        Method::Adaptive | Method::Path | Method::Bins => true,
+    }
+}
+
 /// How the parts of an error fall from the passes done to more of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Laws {
@@ -21,15 +33,9 @@ impl Laws {
     /// The squared radius shrinks as pass^(-2 SHRINK), and so does the bias of a pass; its variance grows as much where the map is read at the
     /// point itself, and hardly at all where many rays read it (Knaus and Zwicker 2011, section 4).
     pub(crate) fn of<const C: usize>(session: &Session<'_, C>, done: u64, passes: u64) -> Self {
-        let (noise_power, bias_power) = match session.settings.method {
-            Method::FinalGather { .. } if session.caches() => (0.5, 0.0),
-            Method::FinalGather { radius: None } => (0.5, 2.0 * SHRINK),
-            Method::Radius { radius: None } | Method::Nearest { k: None } | Method::Adaptive => {
-                (0.5 - SHRINK, 2.0 * SHRINK)
-            }
-            Method::FinalGather { .. } | Method::Radius { .. } | Method::Nearest { .. } => (0.5, 0.0),
-            Method::Path | Method::Bins => (0.5, 0.0),
-        };
+        let falls = bias_falls(session);
+        let noise_power = if falls && session.settings.method.is_direct_view() { 0.5 - SHRINK } else { 0.5 };
+        let bias_power = if falls { 2.0 * SHRINK } else { 0.0 };
         let fewer = done as f64 / passes as f64;
         Self { passes, noise: fewer.powf(noise_power), bias: fewer.powf(bias_power), mean: fewer.sqrt() }
     }

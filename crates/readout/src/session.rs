@@ -43,6 +43,14 @@ pub trait Observer: Sync {
     fn pass_done(&self, passes: u64, elapsed: Duration, error: Option<f64>);
 }
 
+/// Watches nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Silent;
+
+impl Observer for Silent {
+    fn pass_done(&self, _: u64, _: Duration, _: Option<f64>) {}
+}
+
 /// Why a run has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {

@@ -1,6 +1,10 @@
 //! Readings of one scene by many seeds, and how often their intervals hold what they should.
 
 use photonlab_measure::{Replicates, student_t_quantile};
+use photonlab_readout::Cell;
+use photonlab_reference::catalogue::Case;
+
+use super::lab::Lab;
 
 /// Two-sided confidences at which coverage is looked at.
 pub(super) const LEVELS: [f64; 4] = [0.5, 0.9, 0.95, 0.99];
@@ -29,6 +33,19 @@ pub(super) type Run = Vec<Option<Made>>;
 pub(super) struct Truth {
     pub(super) value: f64,
     pub(super) uncertainty: f64,
+}
+
+/// The answer to each reading of some cells, channel by channel.
+pub(super) fn truths(lab: &Lab, case: &Case, cells: &[Cell], results: usize) -> anyhow::Result<Vec<Truth>> {
+    let mut truths = Vec::new();
+    for cell in cells {
+        let id = &lab.world.scene.sensors[cell.sensor].id;
+        let answer = case.expected.iter().find(|answer| &answer.sensor == id);
+        let answer = answer.ok_or_else(|| anyhow::anyhow!("no answer for {id}"))?;
+        let value = |channel: usize| answer.value[channel.min(answer.value.len() - 1)];
+        truths.extend((0..results).map(|c| Truth { value: value(c), uncertainty: answer.uncertainty }));
+    }
+    Ok(truths)
 }
 
 /// What intervals held, over scenes. A run is one replicate: readings of one run have photons in common.

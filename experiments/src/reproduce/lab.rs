@@ -2,7 +2,7 @@
 
 use photonlab_photometry::Response;
 use photonlab_readout::{
-    Cell, ErrorOver, Observer, Outcome, ReadError, Schedule, Session, Settings, Source, Target, Wanted,
+    Cell, ErrorOver, Outcome, ReadError, Schedule, Session, Settings, Silent, Source, Target, Wanted,
 };
 use photonlab_sampling::PassOptics;
 use photonlab_scene::{
@@ -14,12 +14,6 @@ use photonlab_scene::{
 pub(super) struct Lab {
     pub(super) world: World,
     pub(super) needs: Needs,
-}
-
-struct Silent;
-
-impl Observer for Silent {
-    fn pass_done(&self, _: u64, _: std::time::Duration, _: Option<f64>) {}
 }
 
 impl Lab {

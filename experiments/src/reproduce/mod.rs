@@ -37,6 +37,7 @@ mod photon_set;
 mod picture;
 mod placed;
 mod progressive;
+mod races;
 mod ray_curves;
 mod receivers;
 mod report;

@@ -16,7 +16,7 @@ use crate::{
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
-        covered::{Covered, LEVELS, Made, Run, Truth, USUAL},
+        covered::{Covered, LEVELS, Made, Run, Truth, USUAL, truths},
         far::{self, Far},
         fnv::fnv1a,
         lab::Lab,
@@ -141,11 +141,6 @@ fn read<const C: usize>(
         _ => true,
     };
     let cells: Vec<Cell> = Cell::of_meters(&lab.world.scene).into_iter().filter(readable).collect();
-    let answers = cells.iter().map(|cell| {
-        let id = &lab.world.scene.sensors[cell.sensor].id;
-        case.expected.iter().find(|answer| &answer.sensor == id).ok_or_else(|| anyhow::anyhow!("no answer for {id}"))
-    });
-    let answers: Vec<_> = answers.collect::<anyhow::Result<_>>()?;
     let settings = |method: Method, seed: u64| Settings {
         method,
         direct: Direct::Sampled,
@@ -157,30 +152,24 @@ fn read<const C: usize>(
         limits: Limits { max_segments: lab.world.scene.max_depth, ..Limits::default() },
     };
     let wanted = Wanted { photons: Some(p.photons), samples: (!counts).then_some(p.points), ..Wanted::default() };
-    let (mut runs, mut truths) = (Vec::new(), Vec::new());
+    let (mut runs, mut answers) = (Vec::new(), Vec::new());
     if cells.is_empty() {
-        return Ok((runs, truths));
+        return Ok((runs, answers));
     }
     if named {
         let earlier = lab.read::<C>(&cells, settings(method, first + p.seeds), &wanted, LEVELS[USUAL])?;
-        let Some(radius) = earlier.radius.filter(|radius| *radius > 0.0) else { return Ok((runs, truths)) };
+        let Some(radius) = earlier.radius.filter(|radius| *radius > 0.0) else { return Ok((runs, answers)) };
         method = Method::Radius { radius: Some(radius) };
     }
     let is_doubted = doubt(&lab.world, &lab.needs, leak(&lab.world), &settings(method, first)).is_some();
     for seed in first..first + p.seeds {
         let outcome = lab.read::<C>(&cells, settings(method, seed), &wanted, LEVELS[USUAL])?;
         let channels = 0..outcome.results;
-        truths = answers
-            .iter()
-            .flat_map(|answer| {
-                let value = |channel: usize| answer.value[channel.min(answer.value.len() - 1)];
-                channels.clone().map(move |channel| Truth { value: value(channel), uncertainty: answer.uncertainty })
-            })
-            .collect();
+        answers = truths(lab, case, &cells, outcome.results)?;
         let made = outcome.cells.iter().flat_map(|cell| channels.clone().map(|c| make(cell, c, &outcome, is_doubted)));
         runs.push(made.collect());
     }
-    Ok((runs, truths))
+    Ok((runs, answers))
 }
 
 fn make<const C: usize>(
