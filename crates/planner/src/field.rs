@@ -132,27 +132,45 @@ impl<'c, const C: usize> Field<'_, 'c, C> {
         self.standings[trial.number] = trial.forecast(self.target).map_or(Standing::OutOfReach, Standing::Foretold);
     }
 
-    /// The best first: whose error bars can be signed before others, and of these the soonest.
+    /// The best first: whose error bars can be signed before others, of these the soonest, and of those of which nothing is foretold who has found
+    /// most.
     pub(crate) fn rank(&mut self) {
         let trials = std::mem::take(&mut self.trials);
         trials.iter().for_each(|trial| self.foretell(trial));
         let key = |trial: &Trial<'c, C>| {
             let is_trusted = trial.ongoing.cells().iter().all(self.trusts);
             let seconds = self.standings[trial.number].forecast().map_or(f64::INFINITY, |forecast| forecast.seconds);
-            (!is_trusted, seconds)
+            (!is_trusted, seconds, std::cmp::Reverse(trial.found()))
         };
         let mut keyed: Vec<_> = trials.into_iter().map(|trial| (key(&trial), trial)).collect();
-        keyed.sort_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        keyed.sort_by(|(a, _), (b, _)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then_with(|| a.2.cmp(&b.2)));
         self.trials = keyed.into_iter().map(|(_, trial)| trial).collect();
     }
 
-    /// Drops those that can hardly be the soonest, and the last beyond a number. Where nothing is foretold of the first, all stay.
+    /// The winner: where nothing is foretold of the first, the first of which something is, if there is one.
+    pub(crate) fn winner(self, standings: &[Standing]) -> (Option<Trial<'c, C>>, Option<Forecast>) {
+        let foretold = |trial: &Trial<'c, C>| standings[trial.number].forecast();
+        let place = self.trials.iter().position(|trial| foretold(trial).is_some()).unwrap_or(0);
+        let forecast = self.trials.get(place).and_then(foretold);
+        (self.trials.into_iter().nth(place), forecast)
+    }
+
+    /// Drops those that can hardly be the soonest, and the last beyond a number. Where nothing is foretold of the first, all stay; and who is
+    /// still in the dark while that costs little.
     fn keep(&mut self, most: usize) {
         let Some(best) = self.best() else { return };
-        let may_win = |trial: &Trial<'c, C>| {
-            self.standings[trial.number].forecast().is_some_and(|forecast| forecast.low <= best.high)
-        };
-        let stay = self.trials.iter().take(most).take_while(|trial| may_win(trial)).count();
-        self.trials.truncate(stay.max(1));
+        let (mut kept, mut on_those_in_the_dark) = (0, 0.0);
+        let standings = &self.standings;
+        self.trials.retain(|trial| match standings[trial.number].forecast() {
+            Some(forecast) => {
+                let may_win = kept < most && (kept == 0 || forecast.low <= best.high);
+                kept += usize::from(may_win);
+                may_win
+            }
+            None => {
+                on_those_in_the_dark += trial.spent();
+                trial.is_in_the_dark() && on_those_in_the_dark <= WORTH * best.seconds
+            }
+        });
     }
 }

@@ -78,6 +78,9 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             let (before, standings) = (field.best(), field.standings.clone());
             let shorter = std::mem::take(&mut field.trials);
             for trial in &shorter {
+                if field.is_decided() {
+                    break;
+                }
                 field.enter(trial.number, self.trial((trial.number, trial.candidate), scale, start));
             }
             field.rank();
@@ -91,12 +94,12 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
                 }
             }
         }
-        let forecast = field.best();
-        let Some(winner) = field.trials.into_iter().next() else {
-            return Err(field.failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
-        };
         let pilots = start.elapsed();
-        let standings = candidates.iter().zip(field.standings);
+        let (standings, failure) = (std::mem::take(&mut field.standings), field.failure.take());
+        let (Some(winner), forecast) = field.winner(&standings) else {
+            return Err(failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
+        };
+        let standings = candidates.iter().zip(standings);
         let entrants = standings.map(|(&candidate, standing)| Entrant { candidate, standing }).collect();
         let chosen = winner.number;
         let (winner, forecast) = self.go_on_with(winner, (forecast, gained), start)?;
@@ -172,8 +175,8 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
     fn next_scale(&self, field: &Field<'p, 'c, C>, start: Instant) -> Option<(f64, f64)> {
         let first = field.trials.first()?;
         let (scale, by) = first.longer(LONGER);
-        let cost: f64 =
-            field.trials.iter().map(|trial| TRIED_BY * trial.longer(LONGER).1 * trial.seconds_of_pass()).sum();
+        // Others are tried after it as long as that is worth it.
+        let cost = TRIED_BY * by * first.seconds_of_pass();
         let left = field.deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()).as_secs_f64());
         let in_time = left.is_none_or(|left| cost <= left);
         // Passes that hold all they may hold do not grow.

@@ -68,6 +68,16 @@ impl<'c, const C: usize> Trial<'c, C> {
         self.seconds.iter().sum()
     }
 
+    /// Cells in which something has been found, or that are proved dark.
+    pub(crate) fn found(&self) -> usize {
+        self.ongoing.cells().iter().filter(|cell| !cell.found_nothing()).count()
+    }
+
+    /// True if more may be known of it after more of the same: in some cells nothing has been found.
+    pub(crate) fn is_in_the_dark(&self) -> bool {
+        self.found() < self.cells
+    }
+
     /// True if the run may end for its error now.
     pub(crate) fn has_reached(&self, target: f64) -> bool {
         self.ongoing.passes() >= PASSES_BEFORE_STOPPING && self.ongoing.error().is_some_and(|error| error <= target)

@@ -5,19 +5,19 @@ use photonlab_measure::{Replicates, Stopped, student_t_quantile};
 use photonlab_photometry::{Channels, Colour};
 use photonlab_trace::Ledger;
 
-use crate::outlook::Laws;
+use crate::ErrorOver;
 
 /// A ball at the corner of a flat surface holds a quarter of its disc, so an estimate made there lacks up to three times
 /// itself (catalogue B2). Narrower pieces of surface can lack more: readings that rest on such estimates for more than a
 /// trifle are not certified.
-const MISSING_AT_MOST: f64 = 3.0;
+pub(crate) const MISSING_AT_MOST: f64 = 3.0;
 
 /// This share of the bias's own confidence interval is added to its size. With noise s of the value and s_b of the bias, their
 /// correlation c, and a true bias far from zero, a reading is missed on one side alone, where the value's noise less the bias's
 /// is beyond t (s + share s_b): 5 % of the normal distribution at 95 % need 0.84 sqrt(s^2 + s_b^2 - 2 c s s_b) of that sum. A
 /// disc's check has s_b = 0.29 s and c = -0.87, one at an edge 0.87 s and -0.87: shares of 0.20 and 0.59. One of four samples tells it: where
 /// four samples of a cell share no photon s_b is twice that and c half, and the shares are 0.24 and 0.56.
-const OF_BIAS_NOISE: f64 = 0.6;
+pub(crate) const OF_BIAS_NOISE: f64 = 0.6;
 
 /// One cell's values over the passes.
 #[derive(Clone, Debug)]
@@ -53,9 +53,6 @@ pub struct CellResult<const C: usize> {
 /// Of n passes whose counts agree, one photon more or less may be due in 1 - 0.0001^(1/n) < 9.21 / n of all (as in the rule of three). It is
 /// always added, for a spread that counts show in few passes is hardly known better; it falls faster than the noise.
 const GRAIN: f64 = 9.21;
-
-/// An error to come is foretold by so many cells at most: the worst of a picture's is not asked for, and their mean is known by these.
-const FORETOLD_BY: usize = 4096;
 
 /// Glints, or photons, from which on their own spread says how many more there may be.
 pub(crate) const ENOUGH: f64 = 30.0;
@@ -121,7 +118,7 @@ impl<const C: usize> CellResult<C> {
 
     /// Bound on what all passes can miss together where evenly spread photons are counted: the count of a cell that has nearly a whole
     /// number of them hardly ever varies, and then its spread says nothing of the rest.
-    fn grain_bound(&self, channel: usize) -> f64 {
+    pub(crate) fn grain_bound(&self, channel: usize) -> f64 {
         let passes = self.value[channel].len() as f64;
         if passes > 0.0 { GRAIN * self.grain[channel] / (passes * passes) } else { 0.0 }
     }
@@ -206,100 +203,6 @@ impl<const C: usize> Outcome<C> {
     /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
     pub fn error(&self, over: ErrorOver, confidence: f64) -> Option<f64> {
         over.of(&self.cells, self.results, confidence)
-    }
-}
-
-/// How the cells' errors make one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ErrorOver {
-    /// The worst relative half-width over cells and channels (`measure`).
-    Worst,
-    /// The RMS half-width over the mean (`render`).
-    Image,
-}
-
-impl ErrorOver {
-    /// The relative half-width of the cells' intervals; `None` below two passes or where nothing was found anywhere.
-    pub(crate) fn of<const C: usize>(self, cells: &[CellResult<C>], results: usize, confidence: f64) -> Option<f64> {
-        self.combine(cells, results, confidence, |cell, c, t| {
-            let noise =
-                cell.value[c].std_error().unwrap_or(0.0) + OF_BIAS_NOISE * cell.bias[c].std_error().unwrap_or(0.0);
-            let known = cell.bias[c].mean().unwrap_or(0.0).abs()
-                + MISSING_AT_MOST * cell.unresolved[c].mean().unwrap_or(0.0).abs()
-                + cell.rare_bound(c)
-                + cell.grain_bound(c);
-            t * noise + known
-        })
-    }
-
-    /// The same after more passes, by the laws of noise and bias, of at most so many cells that are spread over all.
-    pub(crate) fn expected<const C: usize>(
-        self,
-        cells: &[CellResult<C>],
-        results: usize,
-        confidence: f64,
-        laws: &Laws,
-    ) -> Option<f64> {
-        let t = student_t_quantile(confidence, (laws.passes - 1) as f64);
-        let some: Vec<&CellResult<C>> = cells.iter().step_by(cells.len().div_ceil(FORETOLD_BY).max(1)).collect();
-        self.combine(&some, results, confidence, |cell, c, _| {
-            let noise = laws.noise(&cell.value[c]) + OF_BIAS_NOISE * laws.noise_of_bias(&cell.bias[c]);
-            let known = laws.size_of_bias(&cell.bias[c])
-                + MISSING_AT_MOST * laws.size_of_bias(&cell.unresolved[c])
-                + laws.by_count(cell.rare_bound(c))
-                + laws.by_count(cell.grain_bound(c));
-            t * noise + known
-        })
-    }
-
-    /// The part of it that no number of further passes of the same radius can take away: the bias, where it is
-    /// significant, and what is gathered across edges.
-    pub(crate) fn floor_of<const C: usize>(
-        self,
-        cells: &[CellResult<C>],
-        results: usize,
-        confidence: f64,
-    ) -> Option<f64> {
-        self.combine(cells, results, confidence, |cell, c, t| {
-            let significant =
-                |r: &Replicates| (r.mean().unwrap_or(0.0).abs() - t * r.std_error().unwrap_or(0.0)).max(0.0);
-            significant(&cell.bias[c]) + significant(&cell.unresolved[c])
-        })
-    }
-
-    fn combine<const C: usize>(
-        self,
-        cells: &[impl std::borrow::Borrow<CellResult<C>>],
-        results: usize,
-        confidence: f64,
-        half_width: impl Fn(&CellResult<C>, usize, f64) -> f64,
-    ) -> Option<f64> {
-        let passes = cells.first()?.borrow().value[0].len();
-        if passes < 2 {
-            return None;
-        }
-        // One quantile serves all cells.
-        let t = student_t_quantile(confidence, (passes - 1) as f64);
-        let each = || cells.iter().flat_map(|cell| (0..results).map(move |c| (cell.borrow(), c)));
-        let value = |cell: &CellResult<C>, c: usize| cell.value[c].mean().unwrap_or(0.0).abs();
-        match self {
-            ErrorOver::Image => {
-                let count = (cells.len() * results) as f64;
-                let squares: f64 = each().map(|(cell, c)| half_width(cell, c, t).powi(2)).sum();
-                let mean = each().map(|(cell, c)| value(cell, c)).sum::<f64>() / count;
-                (mean > 0.0).then(|| (squares / count).sqrt() / mean)
-            }
-            // A channel in which proven dark or a lamp without that colour reads zero has no relative error.
-            ErrorOver::Worst => each()
-                .filter(|(cell, c)| value(cell, *c) > 0.0 || cell.found_nothing())
-                .map(
-                    |(cell, c)| {
-                        if value(cell, c) > 0.0 { half_width(cell, c, t) / value(cell, c) } else { f64::INFINITY }
-                    },
-                )
-                .reduce(f64::max)
-                .or(Some(0.0)),
-        }
     }
 }
 

@@ -19,6 +19,8 @@ pub(crate) fn bias_falls<const C: usize>(session: &Session<'_, C>) -> bool {
 /// How the parts of an error fall from the passes done to more of them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Laws {
+    /// Passes so far.
+    pub(crate) done: u64,
     /// Passes to come to, in all.
     pub(crate) passes: u64,
     /// Of the values' standard error.
@@ -37,7 +39,7 @@ impl Laws {
         let noise_power = if falls && session.settings.method.is_direct_view() { 0.5 - SHRINK } else { 0.5 };
         let bias_power = if falls { 2.0 * SHRINK } else { 0.0 };
         let fewer = done as f64 / passes as f64;
-        Self { passes, noise: fewer.powf(noise_power), bias: fewer.powf(bias_power), mean: fewer.sqrt() }
+        Self { done, passes, noise: fewer.powf(noise_power), bias: fewer.powf(bias_power), mean: fewer.sqrt() }
     }
 
     /// A value's standard error.

@@ -8,6 +8,8 @@ use crate::ladder::{Ladder, Rung};
 
 /// Share of the seeds that must meet a target.
 const MET: f64 = 0.95;
+/// What takes so many times as long as the best by few seeds is not the best by many.
+const FAR_BEHIND: f64 = 3.0;
 /// How error falls with time: no faster than evenly spread points have it, no slower than a biased estimate.
 const POWERS: [f64; 2] = [0.25, 1.0];
 
@@ -40,6 +42,17 @@ impl Best {
         });
         times.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
     }
+}
+
+/// Those that may be the best for some target, as few seeds have it.
+pub(super) fn contenders(scouted: &[Ladder<f64>], targets: &[f64]) -> Vec<Candidate> {
+    let may_be = |ladder: &&Ladder<f64>| {
+        targets.iter().any(|&target| {
+            let best = Best::of(scouted, target).map_or(f64::INFINITY, |best| best.seconds);
+            seconds_to(&ladder.rungs, target).is_some_and(|(seconds, _)| seconds <= FAR_BEHIND * best)
+        })
+    };
+    scouted.iter().filter(may_be).map(|ladder| ladder.candidate).collect()
 }
 
 /// The error that 95 % of the seeds do not exceed.

@@ -22,6 +22,7 @@ const WORST_REGRET: f64 = 2.5;
 const MET: f64 = 0.95;
 const FORETOLD: f64 = 0.9;
 const FACTOR: f64 = 1.5;
+
 /// A scene to one target.
 pub(super) struct Race {
     pub(super) scene: String,
@@ -63,6 +64,21 @@ impl Race {
     fn usual_choice(&self) -> &str {
         let count = |title: &str| self.runs.iter().filter(|run| run.chosen == title).count();
         self.runs.iter().map(|run| run.chosen.as_str()).max_by_key(|title| count(title)).unwrap_or("")
+    }
+
+    /// How it went, in a line.
+    pub(super) fn words(&self) -> String {
+        format!(
+            "to {} %: {} takes {:.3} s, auto {:.3} s, mostly by {}; {} of {} met it, {} were foretold",
+            100.0 * self.target,
+            self.best.candidate.title(),
+            self.best.seconds,
+            self.seconds(),
+            self.usual_choice(),
+            self.met(),
+            self.runs.len(),
+            self.foretold()
+        )
     }
 
     pub(super) fn row(&self) -> Row {

@@ -4,7 +4,7 @@ use photonlab_measure::{Comparison, Group, Record, Verdict};
 use photonlab_photometry::Response;
 use photonlab_planner::{Candidate, Planner};
 use photonlab_readout::{Cell, ErrorOver, Session, Settings, Silent, Target};
-use photonlab_reference::catalogue::{ALL, Case};
+use photonlab_reference::catalogue::{ALL, Case, Entry};
 use photonlab_sampling::PassOptics;
 use serde::Deserialize;
 
@@ -20,7 +20,7 @@ use crate::{
         covered::{Truth, truths},
         cpu_clock::CpuClock,
         fnv::fnv1a,
-        hindsight::{Best, largest_error},
+        hindsight::{Best, contenders, largest_error},
         lab::Lab,
         races::{Race, Run, compare, figures, words},
     },
@@ -30,16 +30,24 @@ use crate::{
 const BARS: f64 = 0.95;
 /// One scene in so many is set aside.
 const ASIDE: u64 = 3;
+/// What is less than this share of the brightest reading is rounding.
+const ROUNDING: f64 = 1e-9;
+/// Fewest runs by `auto` to one target, however long they are.
+const FEWEST_RUNS: u64 = 10;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parameters {
     seed: u64,
-    /// Every so many-th scene is read, by the hash of its name.
-    one_in: u64,
+    /// Scenes of each entry of the catalogue, those of the least hashes.
+    of_entry: usize,
     seeds: u64,
+    /// Seeds by which fixed ways are looked at first: those that are far behind are read by no more.
+    scouts: u64,
     /// CPU seconds of a fixed run from which on no longer one is tried.
     ladder_seconds: f64,
+    /// CPU seconds of all runs by `auto` to one target, by which fewer are made of long ones.
+    race_seconds: f64,
     /// Targets that the best method in hindsight would take longer to are left out.
     longest: f64,
     targets: Vec<f64>,
@@ -52,20 +60,15 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     let folder = context.folder("scenes")?;
     let mut found = Findings { seeds: vec![p.seed], ..Findings::default() };
     let mut races = Vec::new();
-    let cases = ALL.iter().flat_map(|entry| (entry.cases)().into_iter().map(move |case| (entry, case)));
-    for (number, (entry, case)) in cases.enumerate() {
-        let scene = format!("{} {}", entry.id, case.name);
-        let hash = fnv1a(&scene);
-        if !(hash / ASIDE).is_multiple_of(p.one_in) {
-            continue;
-        }
+    for (number, (scene, case)) in ALL.iter().flat_map(|entry| chosen(entry, p.of_entry)).enumerate() {
         say!("       {scene}");
         let path = folder.join(format!("{number}.xml"));
         put_down(&case, &path)?;
         let lab = Lab::open(&path)?;
         let first = p.seed + 1000 * (number as u64 + 1);
         let of_scene = by_channels!(lab.needs.channels, race(&lab, &case, &p, first))?;
-        let set_aside = hash.is_multiple_of(ASIDE);
+        let set_aside = fnv1a(&scene).is_multiple_of(ASIDE);
+        of_scene.iter().for_each(|race| say!("       {}", race.words()));
         races.extend(of_scene.into_iter().map(|race| Race { scene: scene.clone(), set_aside, ..race }));
     }
     found.rows = races.iter().map(Race::row).collect();
@@ -81,36 +84,51 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     Ok(context.record(found, verdict, reason))
 }
 
+/// Some scenes of an entry, with their names.
+fn chosen(entry: &Entry, most: usize) -> Vec<(String, Case)> {
+    let named = |case: Case| (format!("{} {}", entry.id, case.name), case);
+    let mut cases: Vec<(String, Case)> = (entry.cases)().into_iter().map(named).collect();
+    // The quotient, for the remainder says what is set aside.
+    cases.sort_by_key(|(name, _)| fnv1a(name) / ASIDE);
+    cases.truncate(most);
+    cases
+}
+
 /// One scene to every target that the best method in hindsight reaches soon enough.
 fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> anyhow::Result<Vec<Race>> {
     let mut cells = Cell::of_meters(&lab.world.scene);
     cells.retain(|cell| !matches!(cell.target, Target::Leaving { .. }));
+    let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
+    // A reading of nothing has no relative error.
+    let all = truths(lab, case, &cells, optics.results())?;
+    let brightest = all.iter().map(|truth| truth.value).fold(0.0, f64::max);
+    let is_dark = |truth: &Truth| truth.value <= ROUNDING * brightest;
+    let dark: Vec<bool> = all.chunks(optics.results()).map(|of_cell| of_cell.iter().any(is_dark)).collect();
+    let mut dark = dark.into_iter();
+    cells.retain(|_| !dark.next().unwrap_or(true));
     if cells.is_empty() {
         return Ok(Vec::new());
     }
-    let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
+    let truths = truths(lab, case, &cells, optics.results())?;
     let options = Options::usual();
     let settings = options.settings(&lab.world.scene).map_err(|failure| anyhow::anyhow!("{failure}"))?;
     let (world, needs, error_over) = (&lab.world, &lab.needs, ErrorOver::Worst);
     let session = Session { world, optics: &optics, needs, settings, confidence: BARS, error_over };
     let entrants = candidates(&options, &session, &cells).map_err(|failure| anyhow::anyhow!("{failure}"))?;
-    let truths = truths(lab, case, &cells, optics.results())?;
-    // A meter that is to read nothing has no relative error.
-    if truths.iter().any(|truth| truth.value <= 0.0) {
-        return Ok(Vec::new());
-    }
-    let seeds = first..first + p.seeds;
-    let climb = |&entrant: &Candidate| {
-        Ladder::climb(&session, &cells, entrant, seeds.clone(), p.ladder_seconds, &|outcome| {
-            largest_error(&outcome, &truths)
-        })
+    let climb = |entrants: &[Candidate], seeds: u64| -> Vec<Ladder<f64>> {
+        let keep = |outcome| largest_error(&outcome, &truths);
+        let one = |&entrant: &Candidate| {
+            Ladder::climb(&session, &cells, entrant, first..first + seeds, p.ladder_seconds, &keep)
+        };
+        entrants.iter().map(one).collect()
     };
-    let ladders: Vec<Ladder<f64>> = entrants.iter().map(climb).collect();
+    let scouted = climb(&entrants, p.scouts.min(p.seeds));
+    let ladders = if p.seeds > p.scouts { climb(&contenders(&scouted, &p.targets), p.seeds) } else { scouted };
     let mut races = Vec::new();
     for &target in &p.targets {
         let Some(best) = Best::of(&ladders, target).filter(|best| best.seconds <= p.longest) else { continue };
-        let runs = seeds
-            .clone()
+        let runs = (p.race_seconds / best.seconds).clamp(FEWEST_RUNS.min(p.seeds) as f64, p.seeds as f64) as u64;
+        let runs = (first..first + runs)
             .map(|seed| read(&session, &cells, &truths, &entrants, (target, seed)))
             .collect::<anyhow::Result<_>>()?;
         races.push(Race { scene: String::new(), set_aside: false, target, best, runs });
