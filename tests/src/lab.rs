@@ -80,6 +80,21 @@ impl Lab {
         Self::open(&path)
     }
 
+    /// The same scene with all maps and light of all path classes, needed or not.
+    pub fn with_everything(mut self) -> Self {
+        for need in
+            [&mut self.needs.direct, &mut self.needs.caustic, &mut self.needs.indirect, &mut self.needs.in_scattering]
+        {
+            *need = true;
+        }
+        self
+    }
+
+    /// What is left out of the scene, by name.
+    pub fn left_out(&self) -> Vec<&str> {
+        self.needs.left_out.iter().map(|need| need.need.as_str()).collect()
+    }
+
     /// The channels that the scene needs.
     pub fn channels(&self) -> Channels {
         self.needs.channels

@@ -26,6 +26,7 @@ mod parallelogram;
 mod primitive;
 mod ray;
 pub mod read;
+mod reasons;
 mod seen;
 mod sensor;
 mod sky;

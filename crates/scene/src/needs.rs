@@ -2,7 +2,10 @@
 
 use photonlab_photometry::Channels;
 
-use crate::{Geometry, Receiver, Scene};
+use crate::{
+    Scene,
+    reasons::{bounces, dispersing, first_specular, indirect_reason, path_classes, spectral_reason},
+};
 
 /// One thing that is modelled, or left out, and why.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,6 +58,10 @@ impl Needs {
             Channels::Rgb => needs.model("three channels", "a reflectance or a lamp is coloured"),
             Channels::Spectral => needs.model("wavelengths", &spectral_reason(scene)),
         }
+        match dispersing(scene) {
+            Some(id) => needs.model("dispersion", &format!("`{id}` refracts each wavelength by its own index")),
+            None => needs.leave_out("dispersion", "no glass has an index that differs between wavelengths"),
+        }
         if needs.direct {
             needs.model("direct light", "the scene has a lamp");
         }
@@ -80,6 +87,17 @@ impl Needs {
                 .model("volume map", &format!("`{}` scatters light, also into rays that look through it", medium.id)),
             None => needs.leave_out("volume map", "no medium scatters light"),
         }
+        let (present, absent) = path_classes(&needs);
+        if !present.is_empty() {
+            needs.model("path classes", &present);
+        }
+        if !absent.is_empty() {
+            needs.leave_out("path classes", &absent);
+        }
+        match bounces(scene, &needs) {
+            Ok(reason) => needs.model("bounces", &reason),
+            Err(reason) => needs.leave_out("bounces", reason),
+        }
         needs
     }
 
@@ -90,40 +108,4 @@ impl Needs {
     fn leave_out(&mut self, need: &str, reason: &str) {
         self.left_out.push(Need { need: need.into(), reason: reason.into() });
     }
-}
-
-/// Why light is followed by wavelength.
-fn spectral_reason(scene: &Scene) -> String {
-    let by_wavelength = |shape: &&crate::Shape| shape.bsdf.spectra().iter().any(|spectrum| spectrum.is_curve());
-    if let Some(shape) = scene.shapes.iter().find(|shape| shape.bsdf.disperses()) {
-        return format!("`{}` refracts wavelengths differently", shape.id);
-    }
-    match scene.shapes.iter().find(by_wavelength) {
-        Some(shape) => format!("the coating of `{}` is given by wavelength", shape.id),
-        None => "a lamp is given by wavelength".into(),
-    }
-}
-
-fn first_specular(scene: &Scene) -> Option<&str> {
-    scene.shapes.iter().find(|shape| shape.bsdf.is_specular()).map(|shape| shape.id.as_str())
-}
-
-/// Why light that was scattered in all directions can reach a surface that is read, if it can.
-fn indirect_reason(scene: &Scene) -> Option<String> {
-    if let Some(medium) = scene.media.iter().find(|medium| medium.scatters()) {
-        return Some(format!("`{}` scatters light, which can reach any surface", medium.id));
-    }
-    let reflecting: Vec<usize> =
-        (0..scene.shapes.len()).filter(|&index| scene.shapes[index].bsdf.is_diffuse()).collect();
-    let &first = reflecting.first()?;
-    // One flat face cannot light itself. If nothing else reflects or is metered, its light is never seen again.
-    let flat = matches!(scene.shapes[first].geometry, Geometry::Rectangle { .. } | Geometry::Disk { .. });
-    let metered_elsewhere = scene.sensors.iter().any(|sensor| match &sensor.receiver {
-        Receiver::Meter(meter) => meter.shape().is_some_and(|shape| shape != first),
-        Receiver::Camera(_) => false,
-    });
-    let alone = reflecting.len() == 1 && flat && first_specular(scene).is_none() && !metered_elsewhere;
-    (!alone).then(|| {
-        format!("`{}` reflects diffusely, and its light can reach a surface that is read", scene.shapes[first].id)
-    })
 }

@@ -35,6 +35,13 @@ pub(super) struct Truth {
     pub(super) uncertainty: f64,
 }
 
+impl Truth {
+    /// The error of a reading relative to the answer, beyond what is not known of that.
+    pub(super) fn relative_error(&self, value: f64) -> f64 {
+        ((value - self.value).abs() - self.uncertainty).max(0.0) / self.value
+    }
+}
+
 /// The answer to each reading of some cells, channel by channel.
 pub(super) fn truths(lab: &Lab, case: &Case, cells: &[Cell], results: usize) -> anyhow::Result<Vec<Truth>> {
     let mut truths = Vec::new();

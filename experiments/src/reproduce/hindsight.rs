@@ -26,10 +26,7 @@ pub(super) struct Best {
 pub(super) fn largest_error<const C: usize>(outcome: &Outcome<C>, truths: &[Truth]) -> f64 {
     let channels = 0..outcome.results;
     let readings = outcome.cells.iter().flat_map(|cell| channels.clone().map(|channel| cell.value[channel].mean()));
-    let error = |(value, truth): (Option<f64>, &Truth)| {
-        let apart = (value.unwrap_or(f64::INFINITY) - truth.value).abs() - truth.uncertainty;
-        apart.max(0.0) / truth.value
-    };
+    let error = |(value, truth): (Option<f64>, &Truth)| truth.relative_error(value.unwrap_or(f64::INFINITY));
     readings.zip(truths).filter(|(_, truth)| truth.value > 0.0).map(error).fold(0.0, f64::max)
 }
 
@@ -37,7 +34,7 @@ impl Best {
     /// The best of several ways by the errors of their runs.
     pub(super) fn of(ladders: &[Ladder<f64>], target: f64) -> Option<Self> {
         let times = ladders.iter().filter_map(|ladder| {
-            let (seconds, extrapolated) = seconds_to(&ladder.rungs, target)?;
+            let (seconds, extrapolated) = seconds_to(&levels(ladder), target)?;
             Some(Best { seconds, candidate: ladder.candidate, extrapolated })
         });
         times.min_by(|a, b| a.seconds.total_cmp(&b.seconds))
@@ -49,35 +46,41 @@ pub(super) fn contenders(scouted: &[Ladder<f64>], targets: &[f64]) -> Vec<Candid
     let may_be = |ladder: &&Ladder<f64>| {
         targets.iter().any(|&target| {
             let best = Best::of(scouted, target).map_or(f64::INFINITY, |best| best.seconds);
-            seconds_to(&ladder.rungs, target).is_some_and(|(seconds, _)| seconds <= FAR_BEHIND * best)
+            seconds_to(&levels(ladder), target).is_some_and(|(seconds, _)| seconds <= FAR_BEHIND * best)
         })
     };
     scouted.iter().filter(may_be).map(|ladder| ladder.candidate).collect()
 }
 
-/// The error that 95 % of the seeds do not exceed.
-fn error(rung: &Rung<f64>) -> f64 {
-    let mut errors: Vec<f64> = rung.runs.iter().map(|error| error.unwrap_or(f64::INFINITY)).collect();
+/// Each length's mean time, and the error that 95 % of its seeds do not exceed.
+fn levels(ladder: &Ladder<f64>) -> Vec<(f64, f64)> {
+    let of = |rung: &Rung<f64>| (rung.seconds, within(rung.runs.iter().copied()));
+    ladder.rungs.iter().map(of).collect()
+}
+
+/// What 95 % of some errors do not exceed; a run that failed has none.
+pub(super) fn within(errors: impl Iterator<Item = Option<f64>>) -> f64 {
+    let mut errors: Vec<f64> = errors.map(|error| error.unwrap_or(f64::INFINITY)).collect();
     errors.sort_by(f64::total_cmp);
     let place = ((MET * errors.len() as f64).ceil() as usize).clamp(1, errors.len()) - 1;
     errors[place]
 }
 
-/// The time to a target, and whether that is extrapolated.
-fn seconds_to(rungs: &[Rung<f64>], target: f64) -> Option<(f64, bool)> {
-    let Some(reached) = rungs.iter().position(|rung| error(rung) <= target) else {
-        let [.., before, last] = rungs else { return None };
-        let power = (error(before) / error(last)).ln() / (last.seconds / before.seconds).ln();
+/// The time to a target by pairs of time and error, shortest first, and whether that is extrapolated.
+pub(super) fn seconds_to(levels: &[(f64, f64)], target: f64) -> Option<(f64, bool)> {
+    let Some(reached) = levels.iter().position(|&(_, error)| error <= target) else {
+        let [.., before, last] = levels else { return None };
+        let power = (before.1 / last.1).ln() / (last.0 / before.0).ln();
         let power = power.is_finite().then(|| power.clamp(POWERS[0], POWERS[1]))?;
-        return Some((last.seconds * (error(last) / target).powf(1.0 / power), true));
+        return Some((last.0 * (last.1 / target).powf(1.0 / power), true));
     };
-    let after = &rungs[reached];
-    let before = reached.checked_sub(1).map(|before| &rungs[before]).filter(|before| error(before).is_finite());
+    let after = levels[reached];
+    let before = reached.checked_sub(1).map(|before| levels[before]).filter(|before| before.1.is_finite());
     let between = before.map(|before| {
-        let share = (error(before) / target).ln() / (error(before) / error(after)).ln();
-        before.seconds * (after.seconds / before.seconds).powf(share)
+        let share = (before.1 / target).ln() / (before.1 / after.1).ln();
+        before.0 * (after.0 / before.0).powf(share)
     });
-    Some((between.unwrap_or(after.seconds), false))
+    Some((between.unwrap_or(after.0), false))
 }
 
 #[cfg(test)]
@@ -86,13 +89,17 @@ mod tests {
 
     #[test]
     fn time_to_an_error_follows_the_slope() {
-        let rung = |seconds: f64| Rung { seconds, runs: vec![Some(0.1 / seconds.sqrt()); 20] };
-        let rungs = [1.0, 4.0, 16.0].map(rung);
-        let to = |target: f64| seconds_to(&rungs, target).expect("a slope");
+        let levels = [1.0_f64, 4.0, 16.0].map(|seconds| (seconds, 0.1 / seconds.sqrt()));
+        let to = |target: f64| seconds_to(&levels, target).expect("a slope");
         assert_eq!(to(0.2), (1.0, false), "the shortest is the least");
         assert!((to(0.04).0 - 6.25).abs() < 1e-9 && !to(0.04).1);
         assert!((to(0.01).0 - 100.0).abs() < 1e-9 && to(0.01).1);
-        let failed = [Rung { seconds: 1.0, runs: vec![None, Some(0.1)] }];
-        assert!(seconds_to(&failed, 0.2).is_none(), "one of two runs is no 95 %");
+        assert!(seconds_to(&[(1.0, f64::INFINITY)], 0.2).is_none());
+    }
+
+    #[test]
+    fn one_of_two_runs_is_no_95_percent() {
+        assert_eq!(within([None, Some(0.1)].into_iter()), f64::INFINITY);
+        assert_eq!(within((0..20).map(|run| (run > 0).then_some(0.1))), 0.1);
     }
 }

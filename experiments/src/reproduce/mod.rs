@@ -30,8 +30,10 @@ mod furnace;
 mod gathered;
 mod growth;
 mod hindsight;
+mod known_scenes;
 mod lab;
 mod lamp_caustic;
+mod peers;
 mod photon_law;
 mod photon_set;
 mod picture;
@@ -43,6 +45,7 @@ mod receivers;
 mod report;
 mod search;
 mod slab;
+mod speeds;
 mod split_charts;
 mod split_rules;
 mod split_times;
@@ -119,6 +122,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
         Claim::TestedRadii,
         Claim::Needs,
         Claim::Planner,
+        Claim::SpeedAccuracy,
     ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");

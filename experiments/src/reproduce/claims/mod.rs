@@ -22,6 +22,7 @@ mod needs;
 mod planner;
 mod range_search;
 mod rendering_equation;
+mod speed_accuracy;
 mod sphere_area;
 mod split_cost;
 mod split_quadratic;
@@ -65,11 +66,12 @@ pub(super) enum Claim {
     TestedRadii,
     Needs,
     Planner,
+    SpeedAccuracy,
 }
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii, the
-    /// needs and the planner are run when they are asked for.
+    /// needs, the planner and the speeds are run when they are asked for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -125,6 +127,7 @@ impl Claim {
             Claim::TestedRadii => "tested-radii",
             Claim::Needs => "needs",
             Claim::Planner => "planner",
+            Claim::SpeedAccuracy => "speed-accuracy",
         }
     }
 
@@ -160,6 +163,7 @@ impl Claim {
             Claim::TestedRadii => include_str!("../../../definitions/tested-radii.toml"),
             Claim::Needs => include_str!("../../../definitions/needs.toml"),
             Claim::Planner => include_str!("../../../definitions/planner.toml"),
+            Claim::SpeedAccuracy => include_str!("../../../definitions/speed-accuracy.toml"),
         }
     }
 
@@ -195,6 +199,7 @@ impl Claim {
             Claim::TestedRadii => tested_radii::run(context),
             Claim::Needs => needs::run(context),
             Claim::Planner => planner::run(context),
+            Claim::SpeedAccuracy => speed_accuracy::run(context),
         }
     }
 }

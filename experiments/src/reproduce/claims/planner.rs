@@ -3,8 +3,8 @@
 use photonlab_measure::{Comparison, Group, Record, Verdict};
 use photonlab_photometry::Response;
 use photonlab_planner::{Candidate, Planner};
-use photonlab_readout::{Cell, ErrorOver, Session, Settings, Silent, Target};
-use photonlab_reference::catalogue::{ALL, Case, Entry};
+use photonlab_readout::{Cell, ErrorOver, Session, Settings, Silent};
+use photonlab_reference::catalogue::{ALL, Case};
 use photonlab_sampling::PassOptics;
 use serde::Deserialize;
 
@@ -17,10 +17,10 @@ use crate::{
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
-        covered::{Truth, truths},
+        covered::Truth,
         cpu_clock::CpuClock,
-        fnv::fnv1a,
         hindsight::{Best, contenders, largest_error},
+        known_scenes::{chosen, is_set_aside, lit_meters},
         lab::Lab,
         races::{Race, Run, compare, figures, words},
     },
@@ -28,10 +28,6 @@ use crate::{
 
 /// Confidence of the intervals that end a run.
 const BARS: f64 = 0.95;
-/// One scene in so many is set aside.
-const ASIDE: u64 = 3;
-/// What is less than this share of the brightest reading is rounding.
-const ROUNDING: f64 = 1e-9;
 /// Fewest runs by `auto` to one target, however long they are.
 const FEWEST_RUNS: u64 = 10;
 
@@ -67,7 +63,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         let lab = Lab::open(&path)?;
         let first = p.seed + 1000 * (number as u64 + 1);
         let of_scene = by_channels!(lab.needs.channels, race(&lab, &case, &p, first))?;
-        let set_aside = fnv1a(&scene).is_multiple_of(ASIDE);
+        let set_aside = is_set_aside(&scene);
         of_scene.iter().for_each(|race| say!("       {}", race.words()));
         races.extend(of_scene.into_iter().map(|race| Race { scene: scene.clone(), set_aside, ..race }));
     }
@@ -84,32 +80,13 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     Ok(context.record(found, verdict, reason))
 }
 
-/// Some scenes of an entry, with their names.
-fn chosen(entry: &Entry, most: usize) -> Vec<(String, Case)> {
-    let named = |case: Case| (format!("{} {}", entry.id, case.name), case);
-    let mut cases: Vec<(String, Case)> = (entry.cases)().into_iter().map(named).collect();
-    // The quotient, for the remainder says what is set aside.
-    cases.sort_by_key(|(name, _)| fnv1a(name) / ASIDE);
-    cases.truncate(most);
-    cases
-}
-
 /// One scene to every target that the best method in hindsight reaches soon enough.
 fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> anyhow::Result<Vec<Race>> {
-    let mut cells = Cell::of_meters(&lab.world.scene);
-    cells.retain(|cell| !matches!(cell.target, Target::Leaving { .. }));
     let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
-    // A reading of nothing has no relative error.
-    let all = truths(lab, case, &cells, optics.results())?;
-    let brightest = all.iter().map(|truth| truth.value).fold(0.0, f64::max);
-    let is_dark = |truth: &Truth| truth.value <= ROUNDING * brightest;
-    let dark: Vec<bool> = all.chunks(optics.results()).map(|of_cell| of_cell.iter().any(is_dark)).collect();
-    let mut dark = dark.into_iter();
-    cells.retain(|_| !dark.next().unwrap_or(true));
+    let (cells, truths) = lit_meters(lab, case, optics.results())?;
     if cells.is_empty() {
         return Ok(Vec::new());
     }
-    let truths = truths(lab, case, &cells, optics.results())?;
     let options = Options::usual();
     let settings = options.settings(&lab.world.scene).map_err(|failure| anyhow::anyhow!("{failure}"))?;
     let (world, needs, error_over) = (&lab.world, &lab.needs, ErrorOver::Worst);
