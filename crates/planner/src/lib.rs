@@ -8,6 +8,7 @@
 mod candidate;
 mod field;
 mod forecast;
+mod gain;
 mod plan;
 mod planner;
 mod trial;

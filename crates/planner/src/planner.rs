@@ -8,6 +8,7 @@ use crate::{
     Candidate, Forecast,
     candidate::Heat,
     field::Field,
+    gain::Gain,
     plan::{Entrant, Plan, Standing, Why},
     trial::Trial,
 };
@@ -17,9 +18,14 @@ const MOST_PASSES: u64 = 160;
 /// Passes of such a run: of meters many tell the error bar well; of an image's pixels, which are many themselves, fewer and longer ones have
 /// more evenly spread points.
 const METERS_PASSES: f64 = 56.0;
-const IMAGES_PASSES: f64 = 20.0;
-/// The next length of passes over the last.
-const LONGER: f64 = 16.0;
+const FEW_PASSES: f64 = 20.0;
+/// Passes of the run that goes on after which its time is told, if that is no more than half of them.
+const SETTLED: u64 = 24;
+/// Fewer passes of a run tell less of its noise than shorter ones told before.
+const FEWEST_TELLING: u64 = 4;
+/// The next length of passes over the last: the error of evenly spread points falls faster within a pass than over passes, and not of every method
+/// alike.
+const LONGER: f64 = 4.0;
 /// Passes that longer ones are tried by.
 const TRIED_BY: f64 = 4.0;
 /// What longer passes may cost of what the best still needs.
@@ -35,8 +41,10 @@ const PASSES_IN_TIME: f64 = 20.0;
 const LATE: f64 = 5.0;
 /// Of a time limit pilots take this share at most.
 const OF_LIMIT: f64 = 0.2;
-/// Longer passes need fewer photons and rays in all, or more, by no more than this power of their length.
-const MOST_GAIN: f64 = 0.5;
+/// Longer passes that need fewer photons and rays in all by such a power of their length should be few.
+const STEEP: f64 = 0.4;
+/// A run of longer passes begins anew if it needs less than this share of what is left of the winner's own.
+const ANEW: f64 = 0.8;
 
 /// What is to be read, and how well.
 pub struct Planner<'p, 'c, const C: usize> {
@@ -71,7 +79,7 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         let start = Instant::now();
         let mut field = self.field(start, candidates.len());
         self.enter_all(&mut field, candidates, start);
-        let mut gained = 0.0;
+        let mut gain = Gain::default();
         loop {
             field.halve();
             let Some((scale, by)) = self.next_scale(&field, start) else { break };
@@ -85,7 +93,7 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             }
             field.rank();
             match (before, field.best()) {
-                (Some(before), Some(now)) if now.low <= before.high => gained = gain(before, now, by),
+                (Some(before), Some(now)) if now.low <= before.high => gain.add(before, now, by),
                 (None, _) if !field.trials.is_empty() => {}
                 // Longer passes are slower, or foretell nothing.
                 _ => {
@@ -102,22 +110,47 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         let standings = candidates.iter().zip(standings);
         let entrants = standings.map(|(&candidate, standing)| Entrant { candidate, standing }).collect();
         let chosen = winner.number;
-        let (winner, forecast) = self.go_on_with(winner, (forecast, gained), start)?;
+        let (winner, forecast) = self.go_on_with(winner, (forecast, gain.expected()), start)?;
+        let (winner, forecast) = self.settle(winner, forecast, start)?;
         Ok(Plan { entrants, chosen, forecast, pilots, winner })
     }
 
     fn field(&self, start: Instant, candidates: usize) -> Field<'p, 'c, C> {
-        let of_limit = self.time_limit.map(|limit| limit.mul_f64(OF_LIMIT));
         Field {
             trials: Vec::new(),
             target: self.target,
             trusts: self.trusts,
-            deadline: self.patience.into_iter().chain(of_limit).min().map(|patience| start + patience),
+            deadline: self.deadline(start),
             standings: vec![Standing::NotRaced(Why::DoneSoon); candidates],
             entered: 0.0,
             spent: 0.0,
             failure: None,
         }
+    }
+
+    /// When pilots end, whatever is known by then.
+    fn deadline(&self, start: Instant) -> Option<Instant> {
+        let of_limit = self.time_limit.map(|limit| limit.mul_f64(OF_LIMIT));
+        self.patience.into_iter().chain(of_limit).min().map(|patience| start + patience)
+    }
+
+    /// Lets the run that goes on do some of its passes, which count, before its time is told: four of them know their noise within a factor of two.
+    fn settle(
+        &self,
+        mut winner: Trial<'c, C>,
+        forecast: Option<Forecast>,
+        start: Instant,
+    ) -> Result<(Trial<'c, C>, Option<Forecast>), ReadError> {
+        let Some(before) = forecast else { return Ok((winner, None)) };
+        let deadline = self.deadline(start);
+        let enough = SETTLED.min(before.passes / 2);
+        while winner.ongoing.passes() < enough && deadline.is_none_or(|deadline| Instant::now() < deadline) {
+            winner.pass()?;
+        }
+        // A first pass tells no noise.
+        let known = winner.ongoing.passes() >= FEWEST_TELLING;
+        let now = if known { winner.forecast(self.target) } else { None };
+        Ok((winner, now.or(forecast)))
     }
 
     /// Lets candidates run their first passes: at once, or after a look at those before them, if they enter at all.
@@ -198,12 +231,9 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         start: Instant,
     ) -> Result<(Trial<'c, C>, Option<Forecast>), ReadError> {
         let passes = forecast.map_or(u64::MAX, |forecast| forecast.passes);
-        if passes <= MOST_PASSES {
-            return Ok((winner, forecast));
-        }
         let aim = match self.session.error_over {
-            ErrorOver::Worst => METERS_PASSES,
-            ErrorOver::Image => IMAGES_PASSES,
+            ErrorOver::Worst if gain < STEEP => METERS_PASSES,
+            ErrorOver::Worst | ErrorOver::Image => FEW_PASSES,
         };
         let aim = if self.session.demands().draws_wavelengths { FINER * aim } else { aim };
         let for_target = match forecast {
@@ -213,33 +243,12 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
         let left = self.time_left(start).map_or(f64::INFINITY, |left| left.as_secs_f64());
         let in_time = left / (PASSES_IN_TIME * winner.seconds_of_pass());
         let (scale, by) = winner.longer(for_target.min(in_time));
-        if by <= 1.0 {
+        let anew = forecast.map(|forecast| forecast.in_longer_passes(by, gain));
+        let pays = forecast.zip(anew).is_none_or(|(own, anew)| anew.seconds < ANEW * (own.seconds - winner.spent()));
+        if by <= 1.0 || passes <= MOST_PASSES && !pays {
             return Ok((winner, forecast));
         }
         let trial = self.trial((winner.number, winner.candidate), scale, start)?;
-        Ok((trial, forecast.map(|forecast| forecast.in_longer_passes(by, gain))))
-    }
-}
-
-/// By what power of the passes' length the photons and rays in all fall that an error needs: as far as two forecasts show it beyond their own
-/// uncertainty. Below zero where longer passes need more.
-fn gain(shorter: Forecast, longer: Forecast, ratio: f64) -> f64 {
-    let unsure = ((shorter.high / shorter.seconds).ln().powi(2) + (longer.high / longer.seconds).ln().powi(2)).sqrt();
-    let gained = (shorter.seconds / longer.seconds).ln();
-    let sure = (gained.abs() - unsure).max(0.0).copysign(gained);
-    (sure / ratio.ln()).clamp(-MOST_GAIN, MOST_GAIN)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn longer_passes_gain_what_is_sure() {
-        let of = |passes: u64, degrees: f64| Forecast::new(passes, 0.01, 0.01, degrees);
-        assert_eq!(gain(of(1000, 3.0), of(800, 3.0), 16.0), 0.0, "by chance");
-        let sure = gain(of(1000, 1e6), of(300, 1e6), 16.0);
-        assert!(sure > 0.3 && sure < 1000f64.log(16.0) - 300f64.log(16.0), "{sure}");
-        assert_eq!(gain(of(1000, 1e6), of(1, 1e6), 16.0), MOST_GAIN);
+        Ok((trial, anew))
     }
 }
