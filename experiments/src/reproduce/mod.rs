@@ -32,6 +32,7 @@ mod growth;
 mod hindsight;
 mod lab;
 mod lamp_caustic;
+mod map_scene;
 mod photon_law;
 mod photon_set;
 mod picture;
@@ -119,6 +120,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
         Claim::TestedRadii,
         Claim::Needs,
         Claim::Planner,
+        Claim::IlluminanceMaps,
     ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");

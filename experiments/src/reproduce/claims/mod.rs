@@ -14,6 +14,7 @@ mod final_gather_rays;
 mod fine_detail;
 mod fixed_noisier;
 mod gather_aids;
+mod illuminance_maps;
 mod interior;
 mod irradiance_cache;
 mod kd_memory;
@@ -65,11 +66,12 @@ pub(super) enum Claim {
     TestedRadii,
     Needs,
     Planner,
+    IlluminanceMaps,
 }
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii, the
-    /// needs and the planner are run when they are asked for.
+    /// needs, the planner and the illuminance maps are run when they are asked for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -125,6 +127,7 @@ impl Claim {
             Claim::TestedRadii => "tested-radii",
             Claim::Needs => "needs",
             Claim::Planner => "planner",
+            Claim::IlluminanceMaps => "illuminance-maps",
         }
     }
 
@@ -160,6 +163,7 @@ impl Claim {
             Claim::TestedRadii => include_str!("../../../definitions/tested-radii.toml"),
             Claim::Needs => include_str!("../../../definitions/needs.toml"),
             Claim::Planner => include_str!("../../../definitions/planner.toml"),
+            Claim::IlluminanceMaps => include_str!("../../../definitions/illuminance-maps.toml"),
         }
     }
 
@@ -195,6 +199,7 @@ impl Claim {
             Claim::TestedRadii => tested_radii::run(context),
             Claim::Needs => needs::run(context),
             Claim::Planner => planner::run(context),
+            Claim::IlluminanceMaps => illuminance_maps::run(context),
         }
     }
 }
