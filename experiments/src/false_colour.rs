@@ -1,6 +1,9 @@
 //! False colours with a legend.
 
-use crate::image::{Image, encode_png, percentile};
+use crate::{
+    canvas::{Canvas, DOT, GLYPH},
+    image::{Image, encode_png, percentile},
+};
 
 /// Pixels of the legend to the right of the image.
 const LEGEND_WIDTH: usize = 150;
@@ -8,9 +11,6 @@ const MARGIN: usize = 12;
 const BAR: usize = 18;
 /// Marks on the legend's scale.
 const MARKS: usize = 5;
-/// A glyph's cell: 5 x 7 dots and a column of space, each dot drawn `DOT` pixels wide.
-const GLYPH: (usize, usize) = (6, 7);
-const DOT: usize = 2;
 /// A legend needs this height to be readable; smaller images are enlarged by whole factors.
 const SMALLEST_HEIGHT: usize = 256;
 
@@ -21,7 +21,7 @@ pub(crate) fn png(image: &Image, unit: &str, top: Option<f32>) -> anyhow::Result
     let (width, height) = (image.width * zoom + LEGEND_WIDTH, image.height * zoom);
     let mean = |pixel: &[f32; 3]| (pixel[0] + pixel[1] + pixel[2]) / 3.0;
     let top = top.unwrap_or_else(|| percentile(image.pixels.iter().map(mean), 0.995)).max(f32::MIN_POSITIVE);
-    let mut canvas = Canvas { width, height, rgb: vec![255; width * height * 3] };
+    let mut canvas = Canvas::new(width, height);
     for y in 0..height {
         for x in 0..image.width * zoom {
             let value = mean(&image.pixels[(y / zoom) * image.width + x / zoom]);
@@ -58,7 +58,7 @@ fn short(value: f64) -> String {
 }
 
 /// Dark blue over green to yellow: even steps in lightness, told apart by colour-blind readers (after viridis).
-fn colour(share: f32) -> [u8; 3] {
+pub(crate) fn colour(share: f32) -> [u8; 3] {
     const STOPS: [[f32; 3]; 6] = [
         [68.0, 1.0, 84.0],
         [65.0, 68.0, 135.0],
@@ -71,66 +71,4 @@ fn colour(share: f32) -> [u8; 3] {
     let low = (at as usize).min(STOPS.len() - 2);
     let part = at - low as f32;
     std::array::from_fn(|c| (STOPS[low][c] + part * (STOPS[low + 1][c] - STOPS[low][c])).round() as u8)
-}
-
-struct Canvas {
-    width: usize,
-    height: usize,
-    rgb: Vec<u8>,
-}
-
-impl Canvas {
-    fn set(&mut self, x: usize, y: usize, rgb: [u8; 3]) {
-        if x < self.width && y < self.height {
-            self.rgb[3 * (y * self.width + x)..][..3].copy_from_slice(&rgb);
-        }
-    }
-
-    fn text(&mut self, left: usize, top: usize, text: &str) {
-        for (place, letter) in text.chars().enumerate() {
-            for (row, dots) in glyph(letter).into_iter().enumerate() {
-                for column in 0..5 {
-                    if dots >> (4 - column) & 1 == 1 {
-                        for i in 0..DOT * DOT {
-                            let x = left + (place * GLYPH.0 + column) * DOT + i % DOT;
-                            self.set(x, top + row * DOT + i / DOT, [0, 0, 0]);
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// The letters that numbers and units need, five dots wide and seven high.
-fn glyph(letter: char) -> [u8; 7] {
-    match letter {
-        '0' => [14, 17, 19, 21, 25, 17, 14],
-        '1' => [4, 12, 4, 4, 4, 4, 14],
-        '2' => [14, 17, 1, 2, 4, 8, 31],
-        '3' => [31, 2, 4, 2, 1, 17, 14],
-        '4' => [2, 6, 10, 18, 31, 2, 2],
-        '5' => [31, 16, 30, 1, 1, 17, 14],
-        '6' => [6, 8, 16, 30, 17, 17, 14],
-        '7' => [31, 1, 2, 4, 8, 8, 8],
-        '8' => [14, 17, 17, 14, 17, 17, 14],
-        '9' => [14, 17, 17, 15, 1, 2, 12],
-        '.' => [0, 0, 0, 0, 0, 12, 12],
-        '-' => [0, 0, 0, 31, 0, 0, 0],
-        '%' => [24, 25, 2, 4, 8, 19, 3],
-        '/' => [1, 1, 2, 4, 8, 16, 16],
-        '(' => [2, 4, 8, 8, 8, 4, 2],
-        ')' => [8, 4, 2, 2, 2, 4, 8],
-        '^' => [4, 10, 17, 0, 0, 0, 0],
-        'W' => [17, 17, 17, 21, 21, 21, 10],
-        'c' => [0, 0, 14, 16, 16, 17, 14],
-        'd' => [1, 1, 13, 19, 17, 17, 15],
-        'e' => [0, 0, 14, 17, 31, 16, 14],
-        'l' => [12, 4, 4, 4, 4, 4, 14],
-        'm' => [0, 0, 26, 21, 21, 17, 17],
-        'r' => [0, 0, 22, 25, 16, 16, 16],
-        's' => [0, 0, 14, 16, 14, 1, 30],
-        'x' => [0, 0, 17, 10, 4, 10, 17],
-        _ => [0; 7],
-    }
 }

@@ -6,6 +6,7 @@
 #[macro_use]
 mod say;
 
+mod canvas;
 mod certificate;
 mod chart;
 mod chart_reference;
@@ -17,9 +18,13 @@ mod failure;
 mod false_colour;
 mod fixed_command;
 mod goniometer;
+mod illuminance_map;
 mod image;
 mod interrupt;
+mod isolux;
 mod ladder;
+mod levels;
+mod line_labels;
 mod loaded;
 mod map;
 mod measure;

@@ -21,6 +21,8 @@ const METERS_PASSES: f64 = 56.0;
 const FEW_PASSES: f64 = 20.0;
 /// Passes of the run that goes on after which its time is told, if that is no more than half of them.
 const SETTLED: u64 = 24;
+/// How often others enter after all.
+const MOST_ROUNDS: u32 = 4;
 /// Fewer passes of a run tell less of its noise than shorter ones told before.
 const FEWEST_TELLING: u64 = 4;
 /// The next length of passes over the last: the error of evenly spread points falls faster within a pass than over passes, and not of every method
@@ -78,11 +80,34 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
     pub fn race(&self, candidates: &[Candidate]) -> Result<Plan<'c, C>, PlanningError> {
         let start = Instant::now();
         let mut field = self.field(start, candidates.len());
-        self.enter_all(&mut field, candidates, start);
         let mut gain = Gain::default();
+        // Few passes may agree by luck, and seem to be done: others enter then after all.
+        for _ in 0..MOST_ROUNDS {
+            self.enter_all(&mut field, candidates, start);
+            self.lengthen(&mut field, &mut gain, start);
+            let begins_anew = field.best().is_some_and(|best| best.passes > MOST_PASSES);
+            if begins_anew || field.is_late() || field.settle(SETTLED) {
+                break;
+            }
+        }
+        let pilots = start.elapsed();
+        let (standings, failure) = (std::mem::take(&mut field.standings), field.failure.take());
+        let (Some(winner), forecast) = field.winner(&standings) else {
+            return Err(failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
+        };
+        let standings = candidates.iter().zip(standings);
+        let entrants = standings.map(|(&candidate, standing)| Entrant { candidate, standing }).collect();
+        let chosen = winner.number;
+        let (winner, forecast) = self.go_on_with(winner, (forecast, gain.expected()), start)?;
+        let (winner, forecast) = self.settle(winner, forecast, start)?;
+        Ok(Plan { entrants, chosen, forecast, pilots, winner })
+    }
+
+    /// Lets those that are left run longer passes as long as that is worth a try.
+    fn lengthen(&self, field: &mut Field<'p, 'c, C>, gain: &mut Gain, start: Instant) {
         loop {
             field.halve();
-            let Some((scale, by)) = self.next_scale(&field, start) else { break };
+            let Some((scale, by)) = self.next_scale(field, start) else { return };
             let (before, standings) = (field.best(), field.standings.clone());
             let shorter = std::mem::take(&mut field.trials);
             for trial in &shorter {
@@ -98,21 +123,10 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
                 // Longer passes are slower, or foretell nothing.
                 _ => {
                     (field.trials, field.standings) = (shorter, standings);
-                    break;
+                    return;
                 }
             }
         }
-        let pilots = start.elapsed();
-        let (standings, failure) = (std::mem::take(&mut field.standings), field.failure.take());
-        let (Some(winner), forecast) = field.winner(&standings) else {
-            return Err(failure.map_or(PlanningError::NoCandidate, PlanningError::Read));
-        };
-        let standings = candidates.iter().zip(standings);
-        let entrants = standings.map(|(&candidate, standing)| Entrant { candidate, standing }).collect();
-        let chosen = winner.number;
-        let (winner, forecast) = self.go_on_with(winner, (forecast, gain.expected()), start)?;
-        let (winner, forecast) = self.settle(winner, forecast, start)?;
-        Ok(Plan { entrants, chosen, forecast, pilots, winner })
     }
 
     fn field(&self, start: Instant, candidates: usize) -> Field<'p, 'c, C> {
@@ -155,7 +169,14 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
 
     /// Lets candidates run their first passes: at once, or after a look at those before them, if they enter at all.
     fn enter_all(&self, field: &mut Field<'p, 'c, C>, candidates: &[Candidate], start: Instant) {
-        let in_heat = |heat: Heat| candidates.iter().copied().enumerate().filter(move |(_, it)| it.heat() == heat);
+        let waits = |standing: &Standing| {
+            matches!(standing, Standing::NotRaced(Why::DoneSoon | Why::KinIsBehind | Why::StartsSlowly))
+        };
+        let waiting: Vec<bool> = field.standings.iter().map(waits).collect();
+        let in_heat = |heat: Heat| {
+            let all = candidates.iter().copied().enumerate();
+            all.filter(|(number, it)| waiting[*number] && it.heat() == heat).collect::<Vec<_>>()
+        };
         let mut slow_ones_entered = false;
         for (number, candidate) in in_heat(Heat::First) {
             if field.is_decided() {
@@ -164,7 +185,9 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             self.enter_unless_late(field, (number, candidate), start);
             // What starts slowly and then is quick is tried before what hardly ever wins.
             if !slow_ones_entered && field.soonest().is_some_and(|best| best.low > LATE) {
-                in_heat(Heat::IfTimeIsLeft).for_each(|entrant| self.enter_unless_late(field, entrant, start));
+                in_heat(Heat::IfTimeIsLeft)
+                    .into_iter()
+                    .for_each(|entrant| self.enter_unless_late(field, entrant, start));
                 slow_ones_entered = true;
             }
         }

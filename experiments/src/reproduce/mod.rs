@@ -33,6 +33,7 @@ mod hindsight;
 mod known_scenes;
 mod lab;
 mod lamp_caustic;
+mod map_scene;
 mod peers;
 mod photon_law;
 mod photon_set;
@@ -123,6 +124,7 @@ fn chosen(words: &[String]) -> Result<Vec<Claim>, Failure> {
         Claim::Needs,
         Claim::Planner,
         Claim::SpeedAccuracy,
+        Claim::IlluminanceMaps,
     ];
     let all = || Claim::ALL.into_iter().chain(asked);
     let known = || all().map(Claim::id).collect::<Vec<_>>().join(", ");

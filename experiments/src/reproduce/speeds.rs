@@ -20,6 +20,8 @@ const ONE_METHOD: f64 = 1.2;
 const CERTAINTY: f64 = 3.0;
 /// Fewest scenes that tell of a method.
 const FEWEST: u64 = 5;
+/// Times beyond so many times that of the longest run are not told.
+const FARTHEST: f64 = 10.0;
 /// Largest half-width of a logarithm of ratios that says something.
 const PRECISION: f64 = 0.5;
 
@@ -81,8 +83,8 @@ impl SceneSpeeds {
                 };
                 ladder.rungs.iter().map(level).collect()
             };
-            let (error, _) = seconds_to(&levels(|found| found.error), ERROR)?;
-            let half_width = seconds_to(&levels(|found| found.half_width), ERROR).map(|(seconds, _)| seconds);
+            let error = seconds_near(&levels(|found| found.error))?;
+            let half_width = seconds_near(&levels(|found| found.half_width));
             Some((ladder.candidate.title(), Times { error, half_width }))
         };
         self.ladders.iter().filter_map(of).collect()
@@ -98,7 +100,7 @@ impl SceneSpeeds {
         let level =
             |level: &super::peers::PeerLevel| (level.seconds, within(level.errors.iter().map(|&error| Some(error))));
         let levels: Vec<(f64, f64)> = self.peer.as_ref()?.levels.iter().map(level).collect();
-        Some(seconds_to(&levels, ERROR)?.0)
+        seconds_near(&levels)
     }
 
     /// Fit for a file name.
@@ -135,6 +137,13 @@ impl SceneSpeeds {
             series: series.map(|(label, points)| Series { label, kind: SeriesKind::Measured, points }).collect(),
         }
     }
+}
+
+/// The time to 1 %, if it is not far beyond the longest run.
+fn seconds_near(levels: &[(f64, f64)]) -> Option<f64> {
+    let (seconds, _) = seconds_to(levels, ERROR)?;
+    let longest = levels.iter().map(|level| level.0).fold(0.0, f64::max);
+    (seconds <= FARTHEST * longest).then_some(seconds)
 }
 
 fn finite(value: f64) -> serde_json::Value {
@@ -286,12 +295,14 @@ fn price(scenes: &[SceneSpeeds]) -> FigureData {
         ratios.into_iter().enumerate().map(at).collect()
     };
     let points: Vec<Point> = all.values().enumerate().flat_map(of).collect();
+    // A narrow axis breaks names at spaces.
+    let names: Vec<String> = all.keys().map(|method| method.replacen('-', " ", 1)).collect();
     let even = [0.5, all.len() as f64 + 0.5].map(|x| Point::new(x, 1.0)).into();
     FigureData {
         id: "price-of-certainty".into(),
-        title: "Time to a half-width of 1 % over the time to an error of 1 %".into(),
+        title: "Time to a half-width of 1\u{a0}% over the time to an error of 1\u{a0}%".into(),
         caption: "Each mark: one scene, by rising ratio. 95 % of the seeds are within 1 %, by their true error or by their own half-width.".into(),
-        x: Axis::named("method", all.keys().map(String::as_str)),
+        x: Axis::named("method", names.iter().map(String::as_str)),
         y: Axis::log("time to half-width / time to error"),
         series: vec![
             Series { label: "a scene".into(), kind: SeriesKind::Measured, points },

@@ -14,6 +14,7 @@ mod final_gather_rays;
 mod fine_detail;
 mod fixed_noisier;
 mod gather_aids;
+mod illuminance_maps;
 mod interior;
 mod irradiance_cache;
 mod kd_memory;
@@ -67,11 +68,12 @@ pub(super) enum Claim {
     Needs,
     Planner,
     SpeedAccuracy,
+    IlluminanceMaps,
 }
 
 impl Claim {
     /// Every claim of the paper, in the order of the report. The catalogue, the atlas, the coverage, the convergence, the cost, the gather aids, the tested radii, the
-    /// needs, the planner and the speeds are run when they are asked for.
+    /// needs, the planner, the speeds and the illuminance maps are run when they are asked for.
     pub(super) const ALL: [Claim; 20] = [
         Claim::SphereArea,
         Claim::KnnBias,
@@ -128,6 +130,7 @@ impl Claim {
             Claim::Needs => "needs",
             Claim::Planner => "planner",
             Claim::SpeedAccuracy => "speed-accuracy",
+            Claim::IlluminanceMaps => "illuminance-maps",
         }
     }
 
@@ -164,6 +167,7 @@ impl Claim {
             Claim::Needs => include_str!("../../../definitions/needs.toml"),
             Claim::Planner => include_str!("../../../definitions/planner.toml"),
             Claim::SpeedAccuracy => include_str!("../../../definitions/speed-accuracy.toml"),
+            Claim::IlluminanceMaps => include_str!("../../../definitions/illuminance-maps.toml"),
         }
     }
 
@@ -200,6 +204,7 @@ impl Claim {
             Claim::Needs => needs::run(context),
             Claim::Planner => planner::run(context),
             Claim::SpeedAccuracy => speed_accuracy::run(context),
+            Claim::IlluminanceMaps => illuminance_maps::run(context),
         }
     }
 }
