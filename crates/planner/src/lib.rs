@@ -6,9 +6,11 @@
 #![forbid(unsafe_code)]
 
 mod candidate;
+mod entry;
 mod field;
 mod forecast;
 mod gain;
+mod going_on;
 mod plan;
 mod planner;
 mod trial;
