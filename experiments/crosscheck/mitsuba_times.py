@@ -2,7 +2,7 @@
 
 usage: python mitsuba_times.py SCENE SECONDS SEEDS
 
-One line of JSON a run, by its path tracer with more and more points until the runs of one number take so many CPU seconds: the peer's name, the
+One line of JSON a run, by the file's integrator with more and more points until the runs of one number take so many CPU seconds: the peer's name, the
 CPU seconds of rendering all sensors (not of loading nor, by a run before, of compiling), and what each sensor reads in each channel. The
 experiment speed-accuracy calls it where Mitsuba is installed.
 """
@@ -32,7 +32,7 @@ def main():
     path, limit, seeds = sys.argv[1], float(sys.argv[2]), int(sys.argv[3])
     scene = mi.load_file(path, optimize=False)
     integrator = scene.integrator()
-    name = f"Mitsuba {mi.__version__}, path, {mi.variant()}"
+    name = f"Mitsuba {mi.__version__}, {mi.variant()}"
 
     def read(spp, seed):
         before = cpu_seconds()

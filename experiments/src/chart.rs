@@ -99,7 +99,7 @@ fn measure<const C: usize>(arguments: &command::Chart, loaded: &Loaded, read: &R
     let mut ladders = Vec::new();
     for &entrant in entrants.iter().filter(even) {
         say!("       {}", entrant.title());
-        ladders.push(Ladder::climb(&session, &read.cells, entrant, SEEDS, LONGEST, &keep));
+        ladders.push(Ladder::climb(&session, &read.cells, entrant, SEEDS, &|rung| rung.seconds > LONGEST, &keep));
     }
     say!("       references");
     let references = References::of(&session, &read.cells, &ladders)?;

@@ -31,13 +31,13 @@ pub(crate) struct Rung<T> {
 }
 
 impl<T> Ladder<T> {
-    /// Longer and longer runs until one takes so many CPU seconds, or its passes hold all they may.
+    /// Longer and longer runs until one is long enough, or its passes hold all they may.
     pub(crate) fn climb<const C: usize>(
         session: &Session<'_, C>,
         cells: &[Cell],
         candidate: Candidate,
         seeds: Range<u64>,
-        most_seconds: f64,
+        is_enough: &dyn Fn(&Rung<T>) -> bool,
         keep: &dyn Fn(Outcome<C>) -> T,
     ) -> Self {
         let (mut rungs, mut last) = (Vec::new(), None);
@@ -58,8 +58,10 @@ impl<T> Ladder<T> {
                 runs.push(outcome.ok().map(keep));
             }
             seconds /= runs.len() as f64;
-            rungs.push(Rung { seconds: seconds.max(SHORTEST), runs });
-            if seconds > most_seconds {
+            let rung = Rung { seconds: seconds.max(SHORTEST), runs };
+            let enough = is_enough(&rung);
+            rungs.push(rung);
+            if enough {
                 break;
             }
         }

@@ -122,8 +122,11 @@ impl SceneSpeeds {
             (peer.name.clone(), points.collect())
         });
         let series = own.chain(peer).filter(|(_, points)| !points.is_empty());
-        let without =
-            if self.peer.is_none() { " Mitsuba 3: not installed, or it does not read this scene." } else { "" };
+        let without = if self.peer.is_none() {
+            " Mitsuba 3: not installed, or it does not read this scene, or reads something else."
+        } else {
+            ""
+        };
         FigureData {
             id: self.slug(),
             title: format!("{}: error against time", self.name),

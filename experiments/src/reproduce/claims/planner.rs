@@ -12,14 +12,14 @@ use crate::{
     by_channels,
     certificate::is_clear_of_edges,
     command::Options,
-    ladder::Ladder,
+    ladder::{Ladder, Rung},
     planned::candidates,
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
         covered::Truth,
         cpu_clock::CpuClock,
-        hindsight::{Best, contenders, largest_error},
+        hindsight::{Best, contenders, largest_error, within},
         known_scenes::{chosen, is_set_aside, lit_meters},
         lab::Lab,
         races::{Race, Run, compare, figures, words},
@@ -94,9 +94,11 @@ fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> a
     let entrants = candidates(&options, &session, &cells).map_err(|failure| anyhow::anyhow!("{failure}"))?;
     let climb = |entrants: &[Candidate], seeds: u64| -> Vec<Ladder<f64>> {
         let keep = |outcome| largest_error(&outcome, &truths);
-        let one = |&entrant: &Candidate| {
-            Ladder::climb(&session, &cells, entrant, first..first + seeds, p.ladder_seconds, &keep)
-        };
+        let least = p.targets.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_enough =
+            |rung: &Rung<f64>| rung.seconds > p.ladder_seconds || within(rung.runs.iter().copied()) <= least;
+        let one =
+            |&entrant: &Candidate| Ladder::climb(&session, &cells, entrant, first..first + seeds, &is_enough, &keep);
         entrants.iter().map(one).collect()
     };
     let scouted = climb(&entrants, p.scouts.min(p.seeds));

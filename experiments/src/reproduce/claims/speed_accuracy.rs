@@ -93,7 +93,14 @@ fn speeds<const C: usize>(
         half_width: outcome.error(error_over, BARS).unwrap_or(f64::INFINITY),
     };
     let climb = |&entrant: &Candidate| {
-        Ladder::climb(&session, &cells, entrant, p.seed..p.seed + p.seeds, p.ladder_seconds, &keep)
+        Ladder::climb(
+            &session,
+            &cells,
+            entrant,
+            p.seed..p.seed + p.seeds,
+            &|rung| rung.seconds > p.ladder_seconds,
+            &keep,
+        )
     };
     let ladders = entrants.iter().filter(|entrant| entrant.balance == Balance::Even).map(climb).collect();
     let peer = mitsuba((path, lab), (&cells, &truths), (p.ladder_seconds, p.seeds));
