@@ -102,7 +102,9 @@ fn table<const C: usize>(plan: &Plan<'_, C>, smaller_by: f64) -> String {
     order.sort_by(|&a, &b| (a != plan.chosen).cmp(&(b != plan.chosen)).then(seconds(a).total_cmp(&seconds(b))));
     for index in order {
         let Entrant { candidate, standing } = &plan.entrants[index];
-        let time = words(standing, smaller_by);
+        // The run that would go on has told more of itself than its pilots did.
+        let told = plan.forecast.filter(|_| index == plan.chosen);
+        let time = told.map_or_else(|| words(standing, smaller_by), |told| interval(&told.times(smaller_by)));
         let mark = if index == plan.chosen { '*' } else { ' ' };
         let _ = writeln!(text, "{mark} {:<28} {time}", candidate.title());
     }

@@ -15,6 +15,15 @@ const GLASS_OVER_FLOOR: &str = r#"<scene version="3.0.0">
   <emitter type="point"><point name="position" x="0" y="0" z="1.5"/><rgb name="intensity" value="1"/></emitter>
 </scene>"#;
 
+/// A floor and a wall under a lamp: each lights the other.
+const FLOOR_AND_WALL: &str = r#"<scene version="3.0.0">
+  <shape type="rectangle" id="floor"><bsdf type="diffuse"><rgb name="reflectance" value="0.5"/></bsdf>
+    <sensor type="irradiancemeter" id="E"/></shape>
+  <shape type="rectangle" id="wall"><transform name="to_world"><rotate y="1" angle="90"/><translate x="-1" z="1"/></transform>
+    <bsdf type="diffuse"><rgb name="reflectance" value="0.9"/></bsdf></shape>
+  <emitter type="point"><point name="position" x="0" y="0" z="1.5"/><rgb name="intensity" value="1"/></emitter>
+</scene>"#;
+
 fn read<const C: usize>(lab: &Lab, method: Method, seed: u64) -> Outcome<C> {
     lab.measure::<C>(settings(method, seed), 100_000 * PASSES, PASSES, 256 * PASSES)
 }
@@ -42,6 +51,7 @@ fn with_everything_switched_on_readings_stay() {
     for (name, xml, unneeded) in [
         ("direct light alone", LAMP_OVER_FLOOR, &["caustic map", "surface map", "volume map", "bounces"][..]),
         ("CUBE", &cube, &["caustic map", "volume map", "dispersion"]),
+        ("floor and wall", FLOOR_AND_WALL, &["caustic map", "volume map", "dispersion"]),
         ("glass over a floor", GLASS_OVER_FLOOR, &["surface map", "volume map", "dispersion"]),
     ] {
         let (plain, more) = (Lab::new(xml), Lab::new(xml).with_everything());

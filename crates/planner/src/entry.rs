@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use crate::{
-    Candidate, Planner,
+    Candidate, Forecast, Planner,
     candidate::Heat,
     field::Field,
     plan::{Standing, Why},
@@ -15,10 +15,15 @@ const LATE: f64 = 5.0;
 impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
     /// Lets candidates run their first passes: at once, or after a look at those before them, if they enter at all.
     pub(crate) fn enter_all(&self, field: &mut Field<'p, 'c, C>, candidates: &[Candidate], start: Instant) {
-        let waits = |standing: &Standing| {
-            matches!(standing, Standing::NotRaced(Why::DoneSoon | Why::KinIsBehind | Why::StartsSlowly))
+        // Who was dropped for the sake of a first that then proved slower may enter again.
+        let may_win = |forecast: Forecast| field.best().is_some_and(|best| forecast.low <= best.high);
+        let runs = |number: usize| field.trials.iter().any(|trial| trial.number == number);
+        let waits = |(number, standing): (usize, &Standing)| match standing {
+            Standing::NotRaced(Why::DoneSoon | Why::KinIsBehind | Why::StartsSlowly) => true,
+            Standing::Foretold(forecast) => !runs(number) && may_win(*forecast),
+            Standing::OutOfReach | Standing::NotRaced(Why::NoTimeLeft | Why::Failed) => false,
         };
-        let waiting: Vec<bool> = field.standings.iter().map(waits).collect();
+        let waiting: Vec<bool> = field.standings.iter().enumerate().map(waits).collect();
         let in_heat = |heat: Heat| {
             let all = candidates.iter().copied().enumerate();
             all.filter(|(number, it)| waiting[*number] && it.heat() == heat).collect::<Vec<_>>()

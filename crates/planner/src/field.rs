@@ -184,8 +184,10 @@ impl<'c, const C: usize> Field<'_, 'c, C> {
                 may_win
             }
             None => {
-                on_those_in_the_dark += trial.spent();
-                trial.is_in_the_dark() && on_those_in_the_dark <= WORTH * best.seconds
+                let with_it = on_those_in_the_dark + trial.spent();
+                let stays = trial.is_in_the_dark() && with_it <= WORTH * best.seconds;
+                on_those_in_the_dark += if stays { trial.spent() } else { 0.0 };
+                stays
             }
         });
     }

@@ -16,6 +16,8 @@ const METERS_PASSES: f64 = 56.0;
 const FEW_PASSES: f64 = 20.0;
 /// Fewer passes of a run tell less of its noise than shorter ones told before.
 const FEWEST_TELLING: u64 = 4;
+/// Nobody waits longer than so many seconds for the time to be told, once it can be.
+const LONGEST_SETTLING: f64 = 2.0;
 /// Passes are so many times more where each draws wavelengths of its own.
 const FINER: f64 = 4.0;
 /// Passes that a time limit should hold at least.
@@ -33,6 +35,7 @@ impl<'c, const C: usize> Planner<'_, 'c, C> {
         (forecast, gain): (Option<Forecast>, f64),
         start: Instant,
     ) -> Result<(Trial<'c, C>, Option<Forecast>), ReadError> {
+        let gain = gain.max(0.0);
         let passes = forecast.map_or(u64::MAX, |forecast| forecast.passes);
         let aim = match self.session.error_over {
             ErrorOver::Worst if gain < STEEP => METERS_PASSES,
@@ -65,12 +68,17 @@ impl<'c, const C: usize> Planner<'_, 'c, C> {
         let Some(before) = forecast else { return Ok((winner, None)) };
         let deadline = self.deadline(start);
         let enough = SETTLED.min(before.passes / 2);
-        while winner.ongoing.passes() < enough && deadline.is_none_or(|deadline| Instant::now() < deadline) {
+        let begun = Instant::now();
+        let is_late = |passes: u64| {
+            let too_long = passes >= FEWEST_TELLING && begun.elapsed().as_secs_f64() > LONGEST_SETTLING;
+            too_long || deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        };
+        while winner.ongoing.passes() < enough && !is_late(winner.ongoing.passes()) {
             winner.pass()?;
         }
         // A first pass tells no noise.
         let known = winner.ongoing.passes() >= FEWEST_TELLING;
         let now = if known { winner.forecast(self.target) } else { None };
-        Ok((winner, now.or(forecast)))
+        Ok((winner, if known { now } else { forecast }))
     }
 }

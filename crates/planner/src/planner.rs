@@ -23,6 +23,8 @@ const MOST_ROUNDS: u32 = 4;
 const LONGER: f64 = 4.0;
 /// Passes that longer ones are tried by.
 const TRIED_BY: f64 = 4.0;
+/// Longer passes may be foretold to be slower by this factor, by chance.
+const HARDLY_SLOWER: f64 = 1.2;
 /// What longer passes may cost of what the best still needs.
 const WORTH: f64 = 0.1;
 /// Passes are no longer than this many times the shortest while nothing has been found to foretell by, nor tried for so many seconds.
@@ -92,16 +94,26 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
             field.halve();
             let Some((scale, by)) = self.next_scale(field, start) else { return };
             let (before, standings) = (field.best(), field.standings.clone());
-            let shorter = std::mem::take(&mut field.trials);
+            let mut shorter = std::mem::take(&mut field.trials);
+            let number = shorter.first().map(|trial| trial.number);
+            let mut tried = 0;
             for trial in &shorter {
-                if field.is_decided() {
+                let is_long_dark = before.is_none() && start.elapsed().as_secs_f64() > SECONDS_IN_THE_DARK;
+                if field.is_decided() || field.is_late() || is_long_dark {
                     break;
                 }
                 field.enter(trial.number, self.trial((trial.number, trial.candidate), scale, start));
+                tried += 1;
             }
             field.rank();
             match (before, field.best()) {
-                (Some(before), Some(now)) if now.low <= before.high => gain.add(before, now, by),
+                (Some(before), Some(now)) if now.seconds <= HARDLY_SLOWER * before.seconds => {
+                    // What longer passes gain is told by one candidate's, not by two.
+                    match field.trials.first().map(|trial| trial.number) == number {
+                        true => gain.add(before, now, by),
+                        false => *gain = Gain::default(),
+                    }
+                }
                 (None, _) if !field.trials.is_empty() => {}
                 // Longer passes are slower, or foretell nothing.
                 _ => {
@@ -109,6 +121,9 @@ impl<'p, 'c, const C: usize> Planner<'p, 'c, C> {
                     return;
                 }
             }
+            // Who was not tried at this length stays with shorter passes.
+            field.trials.extend(shorter.drain(tried..));
+            field.rank();
         }
     }
 

@@ -10,12 +10,10 @@ use crate::{
     outlook::Laws,
 };
 
-/// An error to come is foretold by so many cells at most: the mean of many is known by these.
+/// An image's error to come is foretold by so many cells at most: the mean of many is known by these.
 const FORETOLD_BY: usize = 4096;
-/// And their worst, which is sought.
-const WORST_FORETOLD_BY: usize = 256;
-/// No noise is less than this share of the value: rounding.
-const ROUNDING: f64 = 1e-12;
+/// Noise below this share of the value is rounding.
+const ROUNDING: f64 = 1e-9;
 
 /// How the cells' errors make one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +38,7 @@ impl ErrorOver {
         })
     }
 
-    /// The same after more passes, by the laws of noise and bias, of at most so many cells that are spread over all. Of many noises that few passes
+    /// The same after more passes, by the laws of noise and bias. Of many noises that few passes
     /// found the largest is large by chance, so that the worst is that of noises drawn towards each other, with what chance makes of
     /// them at the end.
     pub(crate) fn expected<const C: usize>(
@@ -60,18 +58,14 @@ impl ErrorOver {
                 + laws.by_count(cell.rare_bound(c))
                 + laws.by_count(cell.grain_bound(c))
         };
-        let most = match self {
-            ErrorOver::Image => FORETOLD_BY,
-            ErrorOver::Worst => WORST_FORETOLD_BY,
-        };
-        let some: Vec<&CellResult<C>> = spread_over(cells.len(), most).map(|index| &cells[index]).collect();
         if self == ErrorOver::Image {
+            let some: Vec<&CellResult<C>> = spread_over(cells.len(), FORETOLD_BY).map(|index| &cells[index]).collect();
             return self.combine(&some, results, confidence, |cell, c, _| noise(cell, c) + known(cell, c));
         }
         if cells.first()?.value[0].len() < 2 {
             return None;
         }
-        let each = || some.iter().flat_map(|&cell| (0..results).map(move |c| (cell, c)));
+        let each = || cells.iter().flat_map(|cell| (0..results).map(move |c| (cell, c)));
         if each().any(|(cell, _)| cell.found_nothing()) {
             return Some(f64::INFINITY);
         }
@@ -79,8 +73,7 @@ impl ErrorOver {
             let value = |cell: &CellResult<C>, c: usize| cell.value[c].mean().unwrap_or(0.0).abs();
             each().filter(|&(cell, c)| value(cell, c) > 0.0).map(|(cell, c)| of(cell, c) / value(cell, c)).collect()
         };
-        let stands_for = cells.len() as f64 / some.len() as f64;
-        Some(worst_to_come(&relative(&noise), &relative(&known), laws, stands_for))
+        Some(worst_to_come(&relative(&noise), &relative(&known), laws))
     }
 
     /// The part of it that no number of further passes of the same radius can take away: the bias, where it is
@@ -142,13 +135,15 @@ fn spread_over(all: usize, most: usize) -> impl Iterator<Item = usize> {
 }
 
 /// The median of the largest error to come, by noises and known parts relative to their values.
-fn worst_to_come(noises: &[f64], known: &[f64], laws: &Laws, stands_for: f64) -> f64 {
-    let found: Vec<f64> = noises.iter().map(|noise| noise.max(ROUNDING).powi(2)).collect();
-    let (variances, unsure) = shrunken_variances(&found, (laws.done - 1) as f64);
+fn worst_to_come(noises: &[f64], known: &[f64], laws: &Laws) -> f64 {
+    let noisy: Vec<f64> = noises.iter().filter(|noise| **noise > ROUNDING).map(|noise| noise * noise).collect();
+    let (variances, unsure) = shrunken_variances(&noisy, (laws.done - 1) as f64);
     let by_chance = log_variance_error((laws.passes - 1) as f64).1;
     // A noise's logarithm has half of its variance's.
     let spread = 0.5 * (unsure + by_chance).sqrt();
-    let of = |(variance, &known): (f64, &f64)| Uncertain { known, median: variance.sqrt(), spread };
-    let values: Vec<Uncertain> = variances.into_iter().zip(known).map(of).collect();
-    median_of_largest(&values, stands_for).unwrap_or(0.0)
+    let mut variances = variances.into_iter();
+    let mut median = |noise: f64| if noise > ROUNDING { variances.next().map_or(noise, f64::sqrt) } else { noise };
+    let of = |(&noise, &known): (&f64, &f64)| Uncertain { known, median: median(noise), spread };
+    let values: Vec<Uncertain> = noises.iter().zip(known).map(of).collect();
+    median_of_largest(&values, 1.0).unwrap_or(0.0)
 }

@@ -2,8 +2,8 @@
 
 use crate::{Bsdf, Geometry, Needs, Receiver, Scene};
 
-/// What is left of light after so many bounces that no reading shows it.
-const NOTHING_LEFT: f64 = 1e-3;
+/// A share of light that is little beside what came.
+const LITTLE: f64 = 1e-3;
 
 /// Kinds of light paths in the notation of Heckbert 1990 (L lamp, S specular, D diffuse, V scattered in a medium; + once or more, * any number):
 /// those that exist, and those that do not.
@@ -28,29 +28,36 @@ pub(crate) fn bounces(scene: &Scene, needs: &Needs) -> Result<String, &'static s
     if let Some(segments) = scene.max_depth {
         return Ok(format!("up to {} between lamp and reading: the file's max_depth", segments.saturating_sub(1)));
     }
-    let of_surfaces = scene.shapes.iter().map(|shape| most_handed_on(&shape.bsdf));
-    let most = of_surfaces.chain(scene.media.iter().any(|medium| medium.scatters()).then_some(1.0)).fold(0.0, f64::max);
-    if most >= 1.0 {
-        return Ok("as many as come: some hand on all light; roulette ends paths without bias".into());
+    let surfaces = || scene.shapes.iter().map(|shape| (shape, most_handed_on(&shape.bsdf)));
+    let unknown = surfaces().find(|(_, most)| most.is_none()).map(|(shape, _)| shape.id.as_str());
+    let scattering = scene.media.iter().find(|medium| medium.scatters()).map(|medium| medium.id.as_str());
+    if let Some(id) = unknown.or(scattering) {
+        return Ok(format!(
+            "as many as come (how much `{id}` hands on is not looked into); roulette ends paths without bias"
+        ));
     }
-    let count = (NOTHING_LEFT.ln() / most.ln()).ceil();
+    let most = surfaces().filter_map(|(_, most)| most).fold(0.0, f64::max);
+    if most >= 1.0 {
+        return Ok("as many as come: a surface hands on all light; roulette ends paths without bias".into());
+    }
+    let count = (LITTLE.ln() / most.ln()).ceil();
     Ok(format!(
-        "each hands on at most {:.0} %, so that {count} leave less than {} %; roulette ends paths without bias",
+        "each hands on at most {:.1} %, so that {count} leave less than {} %; roulette ends paths without bias",
         100.0 * most,
-        100.0 * NOTHING_LEFT
+        100.0 * LITTLE
     ))
 }
 
-/// The largest share of light that leaves a surface again; 1 where that is not looked into.
-fn most_handed_on(bsdf: &Bsdf) -> f64 {
-    match bsdf {
+/// The largest share of light that leaves a surface again; `None` where that is not looked into.
+fn most_handed_on(bsdf: &Bsdf) -> Option<f64> {
+    Some(match bsdf {
         Bsdf::Diffuse { reflectance } | Bsdf::Mirror { reflectance } => reflectance.max(),
         Bsdf::Transmitter { reflectance, transmittance } => reflectance.max_of_sum(transmittance),
-        Bsdf::TwoSided { front, back } => most_handed_on(front).max(most_handed_on(back)),
-        Bsdf::Mask { surface, .. } => most_handed_on(surface),
+        Bsdf::TwoSided { front, back } => most_handed_on(front)?.max(most_handed_on(back)?),
+        Bsdf::Mask { surface, .. } => most_handed_on(surface)?,
         Bsdf::Null => 0.0,
-        Bsdf::Plastic { .. } | Bsdf::Dielectric(_) | Bsdf::ThinDielectric { .. } | Bsdf::Conductor(_) => 1.0,
-    }
+        Bsdf::Plastic { .. } | Bsdf::Dielectric(_) | Bsdf::ThinDielectric { .. } | Bsdf::Conductor(_) => return None,
+    })
 }
 
 /// A glass that refracts wavelengths differently.

@@ -76,7 +76,7 @@ pub(super) fn seconds_to(levels: &[(f64, f64)], target: f64) -> Option<(f64, boo
     };
     let after = levels[reached];
     let before = reached.checked_sub(1).map(|before| levels[before]).filter(|before| before.1.is_finite());
-    let between = before.map(|before| {
+    let between = before.filter(|_| after.1 > 0.0).map(|before| {
         let share = (before.1 / target).ln() / (before.1 / after.1).ln();
         before.0 * (after.0 / before.0).powf(share)
     });

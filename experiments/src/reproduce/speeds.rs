@@ -131,7 +131,7 @@ impl SceneSpeeds {
             id: self.slug(),
             title: format!("{}: error against time", self.name),
             caption: format!(
-                "The largest relative error of the readings: median, least and largest of the seeds.{without} {CPU_SECONDS}; {}, {}.",
+                "The largest relative error of the readings, of runs that found one beyond what is not known of the answer: median, least and largest.{without} {CPU_SECONDS}; {}, {}.",
                 system::processor(),
                 super::date::today()
             ),
@@ -153,7 +153,7 @@ fn finite(value: f64) -> serde_json::Value {
     if value.is_finite() { value.into() } else { serde_json::Value::Null }
 }
 
-/// The median of some errors with their ends, of those that are above what is not known of the answer; `None` if a run failed or none is.
+/// The median of some errors with their ends, of those that are above what is not known of the answer; `None` if none is.
 fn spread(seconds: f64, errors: impl Iterator<Item = f64>) -> Option<Point> {
     let mut errors: Vec<f64> = errors.filter(|error| *error > 0.0).collect();
     errors.sort_by(f64::total_cmp);
@@ -188,7 +188,7 @@ pub(super) fn judge(scenes: &[SceneSpeeds], mut table: Option<&mut Table>) -> us
     for (method, (everywhere, certainty)) in &all {
         let Some(table) = table.as_deref_mut() else { continue };
         let at_least = Expected { value: ONE_METHOD, low: ONE_METHOD, high: 1e6, source: "expected".into() };
-        let label = format!("{method}: time to 1 %, over that of the best of each scene that it reads");
+        let label = format!("{method}: time to 1 %, over that of the best, in scenes where it gets there");
         let interval = geometric(everywhere, table.confidence);
         table.judge(label, at_least, interval, PRECISION);
         let at_most = Expected { value: CERTAINTY, low: 0.0, high: CERTAINTY, source: "expected".into() };
@@ -225,7 +225,7 @@ pub(super) fn words(scenes: &[SceneSpeeds], confidence: f64) -> String {
         format!("; {} over the best here {} in {count} scenes", peer.name, told(geometric(&of_peer, confidence)))
     });
     format!(
-        "{} scenes; soonest to an error of 1 %: {}; one method everywhere takes, over the best of each scene that it reads: {}{peer}; a \
+        "{} scenes; soonest to an error of 1 %: {}; one method everywhere takes, over the best of each scene where it gets there: {}{peer}; a \
          half-width of 1 % takes, over an error of 1 %: {}",
         scenes.len(),
         soonest.join(", "),
