@@ -204,7 +204,7 @@ pub(super) fn words(scenes: &[SceneSpeeds], confidence: f64) -> String {
     let mut soonest: BTreeMap<String, usize> = BTreeMap::new();
     scenes.iter().filter_map(|scene| scene.best()).for_each(|(method, _)| *soonest.entry(method).or_default() += 1);
     let mut soonest: Vec<(String, usize)> = soonest.into_iter().collect();
-    soonest.sort_by(|a, b| b.1.cmp(&a.1));
+    soonest.sort_by_key(|method| std::cmp::Reverse(method.1));
     let soonest: Vec<String> = soonest.into_iter().map(|(method, count)| format!("{method} in {count}")).collect();
     let told = |interval: Option<Interval>| match interval {
         Some(it) => format!("{:.2} ({:.2} to {:.2})", it.value, it.low, it.high),
