@@ -37,9 +37,7 @@ fn draw_legend(canvas: &mut Canvas, left: usize, top: f64, unit: &str) {
     let (first, last) = (MARGIN + 3 * GLYPH.1 * DOT, canvas.height - MARGIN - GLYPH.1 * DOT);
     for y in first..last {
         let share = (last - 1 - y) as f32 / (last - 1 - first) as f32;
-        for x in left..left + BAR {
-            canvas.set(x, y, colour(share));
-        }
+        canvas.fill([left, y], [BAR, 1], colour(share));
     }
     for mark in 0..MARKS {
         let share = mark as f64 / (MARKS - 1) as f64;

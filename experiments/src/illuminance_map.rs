@@ -100,7 +100,7 @@ impl IlluminanceMap {
     }
 }
 
-/// A light and a dark stripe side by side, so that one of them shows on any colour and both together leave its lightness.
+/// A light and a dark stripe side by side, so that one of them shows on any colour.
 fn hatched(rgb: [u8; 3], x: usize, y: usize) -> [u8; 3] {
     let towards = |end: f64| rgb.map(|channel| (0.3 * f64::from(channel) + 0.7 * end).round() as u8);
     match (x + y) % HATCH {

@@ -145,5 +145,5 @@ fn worst_to_come(noises: &[f64], known: &[f64], laws: &Laws) -> f64 {
     let mut median = |noise: f64| if noise > ROUNDING { variances.next().map_or(noise, f64::sqrt) } else { noise };
     let of = |(&noise, &known): (&f64, &f64)| Uncertain { known, median: median(noise), spread };
     let values: Vec<Uncertain> = noises.iter().zip(known).map(of).collect();
-    median_of_largest(&values, 1.0).unwrap_or(0.0)
+    median_of_largest(&values).unwrap_or(0.0)
 }

@@ -1,14 +1,20 @@
 //! Scenes of the catalogue, of which some are read.
 
-use photonlab_readout::{Cell, Target};
+use photonlab_photometry::Response;
+use photonlab_planner::Candidate;
+use photonlab_readout::{Cell, ErrorOver, Session, Target};
 use photonlab_reference::catalogue::{Case, Entry};
+use photonlab_sampling::PassOptics;
 
 use super::{
     covered::{Truth, truths},
     fnv::fnv1a,
     lab::Lab,
 };
+use crate::{command::Options, planned::candidates};
 
+/// Confidence of the intervals that end a run.
+pub(super) const BARS: f64 = 0.95;
 /// One scene in so many is set aside.
 const ASIDE: u64 = 3;
 /// What is less than this share of the brightest reading is rounding.
@@ -30,7 +36,7 @@ pub(super) fn is_set_aside(name: &str) -> bool {
 }
 
 /// The cells of all meters but goniometers that light reaches, with their answers channel by channel: a reading of nothing has no relative error.
-pub(super) fn lit_meters(lab: &Lab, case: &Case, results: usize) -> anyhow::Result<(Vec<Cell>, Vec<Truth>)> {
+fn lit_meters(lab: &Lab, case: &Case, results: usize) -> anyhow::Result<(Vec<Cell>, Vec<Truth>)> {
     let mut cells = Cell::of_meters(&lab.world.scene);
     cells.retain(|cell| !matches!(cell.target, Target::Leaving { .. }));
     let all = truths(lab, case, &cells, results)?;
@@ -40,4 +46,31 @@ pub(super) fn lit_meters(lab: &Lab, case: &Case, results: usize) -> anyhow::Resu
     cells.retain(|_| lit.next().unwrap_or(false));
     let truths = truths(lab, case, &cells, results)?;
     Ok((cells, truths))
+}
+
+/// A scene of the catalogue as `auto` would read it.
+pub(super) struct Known<'k, const C: usize> {
+    pub(super) session: Session<'k, C>,
+    pub(super) cells: &'k [Cell],
+    pub(super) truths: &'k [Truth],
+    pub(super) entrants: Vec<Candidate>,
+}
+
+/// Does something with a scene's lit meters and the candidates that read them; `None` if light reaches none.
+pub(super) fn with_known<const C: usize, T>(
+    lab: &Lab,
+    case: &Case,
+    act: impl FnOnce(Known<'_, C>) -> anyhow::Result<T>,
+) -> anyhow::Result<Option<T>> {
+    let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
+    let (cells, truths) = lit_meters(lab, case, optics.results())?;
+    if cells.is_empty() {
+        return Ok(None);
+    }
+    let options = Options::usual();
+    let settings = options.settings(&lab.world.scene).map_err(|failure| anyhow::anyhow!("{failure}"))?;
+    let (world, needs, error_over) = (&lab.world, &lab.needs, ErrorOver::Worst);
+    let session = Session { world, optics: &optics, needs, settings, confidence: BARS, error_over };
+    let entrants = candidates(&options, &session, &cells).map_err(|failure| anyhow::anyhow!("{failure}"))?;
+    act(Known { session, cells: &cells, truths: &truths, entrants }).map(Some)
 }

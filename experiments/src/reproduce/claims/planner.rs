@@ -1,33 +1,27 @@
 //! `planner`: is the method that `auto` chooses the best, does it meet the wanted error, and is its time foretold?
 
 use photonlab_measure::{Comparison, Group, Record, Verdict};
-use photonlab_photometry::Response;
 use photonlab_planner::{Candidate, Planner};
-use photonlab_readout::{Cell, ErrorOver, Session, Settings, Silent};
+use photonlab_readout::{Cell, Session, Settings, Silent};
 use photonlab_reference::catalogue::{ALL, Case};
-use photonlab_sampling::PassOptics;
 use serde::Deserialize;
 
 use crate::{
     by_channels,
     certificate::is_clear_of_edges,
-    command::Options,
     ladder::{Ladder, Rung},
-    planned::candidates,
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
         covered::Truth,
         cpu_clock::CpuClock,
         hindsight::{Best, contenders, largest_error, within},
-        known_scenes::{chosen, is_set_aside, lit_meters},
+        known_scenes::{Known, chosen, is_set_aside, with_known},
         lab::Lab,
         races::{Race, Run, compare, figures, words},
     },
 };
 
-/// Confidence of the intervals that end a run.
-const BARS: f64 = 0.95;
 /// Fewest runs by `auto` to one target, however long they are.
 const FEWEST_RUNS: u64 = 10;
 
@@ -62,7 +56,7 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
         put_down(&case, &path)?;
         let lab = Lab::open(&path)?;
         let first = p.seed + 1000 * (number as u64 + 1);
-        let of_scene = by_channels!(lab.needs.channels, race(&lab, &case, &p, first))?;
+        let of_scene = by_channels!(lab.needs.channels, races_of(&lab, &case, &p, first))?.unwrap_or_default();
         let set_aside = is_set_aside(&scene);
         of_scene.iter().for_each(|race| say!("       {}", race.words()));
         races.extend(of_scene.into_iter().map(|race| Race { scene: scene.clone(), set_aside, ..race }));
@@ -80,25 +74,20 @@ pub(super) fn run(context: &Context) -> anyhow::Result<Record> {
     Ok(context.record(found, verdict, reason))
 }
 
+fn races_of<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> anyhow::Result<Option<Vec<Race>>> {
+    with_known::<C, _>(lab, case, |known| race(known, p, first))
+}
+
 /// One scene to every target that the best method in hindsight reaches soon enough.
-fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> anyhow::Result<Vec<Race>> {
-    let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
-    let (cells, truths) = lit_meters(lab, case, optics.results())?;
-    if cells.is_empty() {
-        return Ok(Vec::new());
-    }
-    let options = Options::usual();
-    let settings = options.settings(&lab.world.scene).map_err(|failure| anyhow::anyhow!("{failure}"))?;
-    let (world, needs, error_over) = (&lab.world, &lab.needs, ErrorOver::Worst);
-    let session = Session { world, optics: &optics, needs, settings, confidence: BARS, error_over };
-    let entrants = candidates(&options, &session, &cells).map_err(|failure| anyhow::anyhow!("{failure}"))?;
+fn race<const C: usize>(known: Known<'_, C>, p: &Parameters, first: u64) -> anyhow::Result<Vec<Race>> {
+    let Known { session, cells, truths, entrants } = known;
     let climb = |entrants: &[Candidate], seeds: u64| -> Vec<Ladder<f64>> {
-        let keep = |outcome| largest_error(&outcome, &truths);
+        let keep = |outcome| largest_error(&outcome, truths);
         let least = p.targets.iter().copied().fold(f64::INFINITY, f64::min);
         let is_enough =
             |rung: &Rung<f64>| rung.seconds > p.ladder_seconds || within(rung.runs.iter().copied()) <= least;
         let one =
-            |&entrant: &Candidate| Ladder::climb(&session, &cells, entrant, first..first + seeds, &is_enough, &keep);
+            |&entrant: &Candidate| Ladder::climb(&session, cells, entrant, first..first + seeds, &is_enough, &keep);
         entrants.iter().map(one).collect()
     };
     let scouted = climb(&entrants, p.scouts.min(p.seeds));
@@ -108,7 +97,7 @@ fn race<const C: usize>(lab: &Lab, case: &Case, p: &Parameters, first: u64) -> a
         let Some(best) = Best::of(&ladders, target).filter(|best| best.seconds <= p.longest) else { continue };
         let runs = (p.race_seconds / best.seconds).clamp(FEWEST_RUNS.min(p.seeds) as f64, p.seeds as f64) as u64;
         let runs = (first..first + runs)
-            .map(|seed| read(&session, &cells, &truths, &entrants, (target, seed)))
+            .map(|seed| read(&session, cells, truths, &entrants, (target, seed)))
             .collect::<anyhow::Result<_>>()?;
         races.push(Race { scene: String::new(), set_aside: false, target, best, runs });
     }

@@ -1,32 +1,25 @@
 //! `speed-accuracy`: error against time of every method in scenes with known answers, and a peer's beside them.
 
 use photonlab_measure::{Group, Record, Verdict};
-use photonlab_photometry::Response;
 use photonlab_planner::{Balance, Candidate};
-use photonlab_readout::{ErrorOver, Outcome, Session};
+use photonlab_readout::Outcome;
 use photonlab_reference::catalogue::{ALL, Case};
-use photonlab_sampling::PassOptics;
 use serde::Deserialize;
 
 use crate::{
     by_channels,
-    command::Options,
-    ladder::Ladder,
-    planned::candidates,
+    ladder::{Ladder, Rung},
     reproduce::{
         case_reading::put_down,
         context::{Context, Findings},
         hindsight::largest_error,
-        known_scenes::{chosen, lit_meters},
+        known_scenes::{BARS, Known, chosen, with_known},
         lab::Lab,
         peers::mitsuba,
         speeds::{Found, SceneSpeeds, figures, judge, words},
         table::Table,
     },
 };
-
-/// Confidence of the half-widths that are charted.
-const BARS: f64 = 0.95;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -78,31 +71,15 @@ fn speeds<const C: usize>(
     (name, case): (&str, &Case),
     p: &Parameters,
 ) -> anyhow::Result<Option<SceneSpeeds>> {
-    let optics = PassOptics::<C>::new(&lab.world, Response::Radiometric)?;
-    let (cells, truths) = lit_meters(lab, case, optics.results())?;
-    if cells.is_empty() {
-        return Ok(None);
-    }
-    let options = Options::usual();
-    let settings = options.settings(&lab.world.scene).map_err(|failure| anyhow::anyhow!("{failure}"))?;
-    let (world, needs, error_over) = (&lab.world, &lab.needs, ErrorOver::Worst);
-    let session = Session { world, optics: &optics, needs, settings, confidence: BARS, error_over };
-    let entrants = candidates(&options, &session, &cells).map_err(|failure| anyhow::anyhow!("{failure}"))?;
-    let keep = |outcome: Outcome<C>| Found {
-        error: largest_error(&outcome, &truths),
-        half_width: outcome.error(error_over, BARS).unwrap_or(f64::INFINITY),
-    };
-    let climb = |&entrant: &Candidate| {
-        Ladder::climb(
-            &session,
-            &cells,
-            entrant,
-            p.seed..p.seed + p.seeds,
-            &|rung| rung.seconds > p.ladder_seconds,
-            &keep,
-        )
-    };
-    let ladders = entrants.iter().filter(|entrant| entrant.balance == Balance::Even).map(climb).collect();
-    let peer = mitsuba((path, lab), (&cells, &truths), (p.ladder_seconds, p.seeds));
-    Ok(Some(SceneSpeeds { name: name.into(), ladders, peer }))
+    with_known::<C, _>(lab, case, |Known { session, cells, truths, entrants }| {
+        let keep = |outcome: Outcome<C>| Found {
+            error: largest_error(&outcome, truths),
+            half_width: outcome.error(session.error_over, BARS).unwrap_or(f64::INFINITY),
+        };
+        let (seeds, is_enough) = (p.seed..p.seed + p.seeds, |rung: &Rung<Found>| rung.seconds > p.ladder_seconds);
+        let climb = |&entrant: &Candidate| Ladder::climb(&session, cells, entrant, seeds.clone(), &is_enough, &keep);
+        let ladders = entrants.iter().filter(|entrant| entrant.balance == Balance::Even).map(climb).collect();
+        let peer = mitsuba((path, lab), (cells, truths), (p.ladder_seconds, p.seeds));
+        Ok(SceneSpeeds { name: name.into(), ladders, peer })
+    })
 }
